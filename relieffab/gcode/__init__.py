@@ -1,0 +1,1 @@
+"""Motion to text and back, and the judgement of text."""

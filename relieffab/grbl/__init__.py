@@ -1,0 +1,1 @@
+"""Text to a machine: Grbl over serial."""

@@ -1,0 +1,1 @@
+"""A job's settings to a folder of finished files."""

@@ -1,0 +1,1 @@
+"""Three aligned images of one model from one view: lines, shading, depth."""

@@ -1,0 +1,1 @@
+"""Relief and stock to a watertight solid."""

@@ -1,0 +1,1 @@
+"""Layers to one height field within bounds."""

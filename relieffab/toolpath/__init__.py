@@ -1,0 +1,1 @@
+"""Relief, cutter and machine to motion."""
