@@ -1,3 +1,43 @@
-"""From a 3D model to a carved sunken relief."""
+"""From a 3D model to a carved sunken relief.
+
+The way through: `read_mesh` (or `make_mesh`), `make_layers`, `make_relief`,
+`make_panel`, `plan`, `write_program`, `verify`, `send`.  Names are loaded when
+they are first used.
+"""
+
+import lazy_loader
 
 __version__ = "0.1.0"
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=["profiles"],
+    submod_attrs={
+        "cutter": ["Cutter"],
+        "errors": ["FindingsError", "InputError", "MachineError", "RelieffabError"],
+        "gcode.estimate": ["estimate"],
+        "gcode.read": ["read_program"],
+        "gcode.verify": ["Verification", "verify"],
+        "gcode.write": ["write_program"],
+        "grbl.port": ["open_port"],
+        "grbl.sender": ["send"],
+        "grid": ["Grid"],
+        "layers.make": ["Drawing", "make_layers"],
+        "layers.mesh": ["Mesh", "make_mesh", "read_mesh"],
+        "layers.model": ["Layers", "Stroke"],
+        "layers.view": ["View", "guess_up", "named_view"],
+        "machine": ["Machine", "Material"],
+        "panel.carve": ["make_panel"],
+        "panel.export": ["write_3mf", "write_stl"],
+        "panel.model": ["Panel"],
+        "picture": ["panel_picture"],
+        "relief.model": ["Relief"],
+        "relief.solve": ["make_relief"],
+        "relief.store": ["read_relief", "to_tiff"],
+        "relief.targets": ["Carving"],
+        "stock": ["Stock"],
+        "subject": ["scarab"],
+        "toolpath.path": ["Toolpath"],
+        "toolpath.plan": ["plan"],
+    },
+)

@@ -25,7 +25,9 @@ def _cache_folder() -> Path:
     return own if _writable(own) else Path(tempfile.gettempdir()) / f"relieffab-{os.getuid()}"
 
 
-# Numba reads this once, when it is first imported.
+# Read once, when Numba and its threads first start.  Threads that wait should
+# sleep: kernels are short, and spinning takes the core from whoever has work.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 
 import numba  # noqa: E402

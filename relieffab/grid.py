@@ -36,7 +36,9 @@ class Grid:
     def __post_init__(self) -> None:
         if self.rows < 1 or self.cols < 1:
             raise InputError(
-                "the grid has no pixels", expected="1 x 1 or more", found=f"{self.cols} x {self.rows}"
+                "the grid has no pixels",
+                expected="1 x 1 or more",
+                found=f"{self.cols} x {self.rows}",
             )
         if not (np.isfinite(self.pitch) and self.pitch > 0):
             raise InputError(

@@ -16,7 +16,9 @@ def _split(text: str, kind: str, example: str) -> tuple[float, str]:
     match = _QUANTITY.match(text)
     if match is None:
         raise InputError(
-            f"this is not {kind}", expected=f"a number with a unit, as in {example}", found=repr(text)
+            f"this is not {kind}",
+            expected=f"a number with a unit, as in {example}",
+            found=repr(text),
         )
     return float(match[1]), match[2]
 

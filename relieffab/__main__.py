@@ -1,0 +1,5 @@
+"""`python -m relieffab`."""
+
+from relieffab.cli.main import main
+
+main()

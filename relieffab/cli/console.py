@@ -1,0 +1,103 @@
+"""What the person sees: results on stdout, progress and messages on stderr."""
+
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from relieffab.job.settings import Chosen
+from relieffab.progress import Progress, silent
+
+
+@contextmanager
+def progress_bar() -> Iterator[Progress]:
+    """Show one bar a stage on stderr; nothing where that is no terminal."""
+    if not sys.stderr.isatty():
+        yield silent
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress as Bars, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description:<10}"),
+        BarColumn(),
+        TextColumn("{task.fields[count]:>24}"),
+        TimeRemainingColumn(),
+    )
+    with Bars(*columns, console=Console(stderr=True)) as bars:
+        tasks: dict[str, Any] = {}
+
+        def show(stage: str, done: float, total: float, unit: str = "") -> None:
+            if stage not in tasks:
+                tasks[stage] = bars.add_task(stage, count="")
+            count = f"{done:,.0f} of {total:,.0f} {unit}" if unit else ""
+            bars.update(tasks[stage], completed=done, total=total, count=count)
+
+        yield show
+
+
+def message(text: str) -> None:
+    """Tell the person something beside the result."""
+    print(text, file=sys.stderr)
+
+
+def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
+    """Print what was made."""
+    if as_json:
+        print(json.dumps(report, indent=2, ensure_ascii=False))
+        return
+    for note in report.get("model", {}).get("notes", []):
+        message(f"note: {note}")
+    if "relief" in report:
+        relief = report["relief"]
+        size = f"{relief['cols'] - 1} x {relief['rows'] - 1} pixels of {relief['pitch_mm']:.4f} mm"
+        print(f"relief   {folder / relief['file']}  {size}, {relief['depth_mm']:g} mm deep")
+    if "panel" in report:
+        panel = report["panel"]
+        tight = "watertight" if panel["watertight"] else "NOT watertight"
+        print(
+            f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
+            f"within {panel['max_error_mm']:.3f} mm"
+        )
+        if panel["stock_note"]:
+            message(f"note: no stock.step: {panel['stock_note']}")
+    _programs(report, folder)
+    if "picture" in report:
+        picture = report["picture"]
+        print(f"picture  {folder / picture['file']}  ({picture['method']})")
+    print(f"report   {folder / 'report.json'}, {folder / 'report.html'}")
+
+
+def _programs(report: Mapping[str, Any], folder: Path) -> None:
+    from relieffab.job.page import clock
+
+    for part in report.get("programs", []):
+        print(
+            f"program  {folder / part['file']}  {part['cutter']['name']}, {part['lines']:,} lines, "
+            f"{clock(part['seconds'])}"
+        )
+    if "verification" in report:
+        verdict(report["verification"])
+
+
+def verdict(part: Mapping[str, Any]) -> None:
+    """Print what simulation found."""
+    word = "carves the relief" if part["ok"] else "DOES NOT carve the relief"
+    print(
+        f"verified {word}: gouge {part['gouge_mm']:.4f} mm, "
+        f"{part['within_tolerance']:.2%} of the figure within {part['tolerance_mm']:g} mm"
+    )
+    for finding in part["findings"]:
+        message(f"finding: {finding}")
+
+
+def configuration(settings: Mapping[str, Chosen], *, as_json: bool) -> None:
+    """Print every setting with where it comes from."""
+    if as_json:
+        table = {name: {"value": c.text, "origin": c.origin} for name, c in settings.items()}
+        print(json.dumps(table, indent=2, ensure_ascii=False))
+        return
+    for name, choice in settings.items():
+        print(f"{name:<15} {choice.text or '-':<20} {choice.origin}")

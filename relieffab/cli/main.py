@@ -1,0 +1,54 @@
+"""relieffab: the command line.
+
+Exit status: 0 done, 1 findings, 2 bad input or usage, 3 machine, 130 interrupted.
+"""
+
+import sys
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError
+
+from relieffab import __version__
+from relieffab.cli import first, machine, stages
+from relieffab.errors import RelieffabError
+
+app = App(
+    name="relieffab",
+    help="From a 3D model to a carved sunken relief.",
+    version=__version__,
+    help_format="plaintext",
+    result_action="return_value",
+)
+for command in (
+    first.demo,
+    stages.make,
+    first.init,
+    stages.layers,
+    stages.relief,
+    stages.panel,
+    stages.toolpath,
+    stages.verify,
+    machine.send,
+    machine.machines,
+):
+    app.command(command)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Carry out one command line and return its exit status."""
+    try:
+        status = app(list(arguments), exit_on_error=False, print_error=True)
+    except CycloptsError:
+        return 2
+    except RelieffabError as error:
+        print(f"relieffab: {error}", file=sys.stderr)
+        return error.exit_status
+    except KeyboardInterrupt:
+        print("relieffab: interrupted; nothing half-written is left", file=sys.stderr)
+        return 130
+    return status if isinstance(status, int) else 0
+
+
+def main() -> None:
+    """Serve as the console script."""
+    sys.exit(run(sys.argv[1:]))

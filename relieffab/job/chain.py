@@ -1,0 +1,251 @@
+"""The stages of a job, each writing its files into a folder and saying what they are."""
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from relieffab import profiles
+from relieffab.errors import FindingsError, InputError
+from relieffab.gcode.estimate import estimate
+from relieffab.gcode.read import Program, read_program
+from relieffab.gcode.verify import Verification, verify
+from relieffab.gcode.write import write_program
+from relieffab.job.settings import Job
+from relieffab.layers.drawing import strokes_to_svg
+from relieffab.layers.make import Drawing, layers_of
+from relieffab.layers.mesh import Mesh
+from relieffab.layers.model import Layers, Stroke
+from relieffab.layers.view import VIEWS, View, guess_up, place
+from relieffab.grid import Grid
+from relieffab.picture import png8, png16
+from relieffab.progress import Progress, silent
+from relieffab.relief.model import Relief
+from relieffab.relief.solve import make_relief
+from relieffab.relief.store import grey, to_tiff
+from relieffab.relief.targets import Carving
+from relieffab.stock import Stock
+from relieffab.toolpath.path import Toolpath
+from relieffab.toolpath.plan import Settings, plan
+
+Part = dict[str, Any]
+
+
+def stock_of(job: Job) -> Stock:
+    """The slab a job is carved from."""
+    return Stock(job.size[0], job.size[1], job.thickness)
+
+
+def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
+    """The view a job asks for, and a note where the up axis had to be guessed."""
+    up = job.up or guess_up(mesh)
+    azimuth, elevation = VIEWS[job.view]
+    view = View(
+        azimuth if job.azimuth is None else job.azimuth,
+        elevation if job.elevation is None else job.elevation,
+        job.roll,
+        up,
+    )
+    return view, "" if job.up else f"up axis guessed: {up} (say --up to choose)"
+
+
+def model_part(mesh: Mesh, path: Path | None) -> Part:
+    """What report.json says of the model."""
+    return {
+        "name": mesh.name,
+        "vertices": len(mesh.vertices),
+        "triangles": len(mesh.faces),
+        "notes": list(mesh.notes),
+        "sha256": hashlib.sha256(path.read_bytes()).hexdigest() if path else None,
+    }
+
+
+def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
+    """See the model; the part is report.json's `view`."""
+    grid = Grid.on_panel(job.size, job.resolution)
+    placed = place(mesh, view, job.size, margin=job.margin)
+    drawing = Drawing(width=job.line_width, detail=job.line_detail)
+    layers = layers_of(placed, grid, drawing=drawing)
+    return layers, {
+        "azimuth_deg": view.azimuth,
+        "elevation_deg": view.elevation,
+        "roll_deg": view.roll,
+        "up": view.up,
+        "matrix": placed.matrix.tolist(),
+    }
+
+
+def write_layers(layers: Layers, job: Job, folder: Path) -> None:
+    """Write the three images and the drawing: layers/."""
+    inside = folder / "layers"
+    inside.mkdir()
+    seen = layers.depth[layers.mask]
+    span = max(float(np.ptp(seen)), 1e-12)
+    near = np.where(layers.mask, (layers.depth - seen.min()) / span, 0.0)
+    (inside / "depth.png").write_bytes(png16(near))
+    (inside / "lambert.png").write_bytes(png16(layers.shading.mean(axis=0)))
+    (inside / "lines.png").write_bytes(png16(1.0 - layers.lines))
+    (inside / "lines.svg").write_text(strokes_to_svg(layers.strokes, job.size), encoding="utf-8")
+
+
+def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple[Relief, Part]:
+    """Solve for the relief; the part is report.json's `relief`."""
+    carving = Carving(
+        depth=job.depth,
+        line_depth=job.line_depth,
+        form_length=job.form_length,
+        wall_angle=job.wall_angle,
+    )
+    relief, solution = make_relief(layers, carving, progress=progress)
+    return relief, {
+        "file": "relief.tiff",
+        "rows": relief.heights.shape[0],
+        "cols": relief.heights.shape[1],
+        "pitch_mm": relief.grid.pitch,
+        "origin_mm": list(relief.grid.origin),
+        "depth_mm": relief.depth,
+        "energy": solution.energy,
+        "iterations": solution.iterations,
+        "residual": solution.residual,
+    }
+
+
+def write_relief(relief: Relief, folder: Path) -> None:
+    """Write relief.tiff and relief.png."""
+    (folder / "relief.tiff").write_bytes(to_tiff(relief))
+    (folder / "relief.png").write_bytes(png16(grey(relief)))
+
+
+def write_panel(
+    relief: Relief, job: Job, folder: Path, progress: Progress = silent
+) -> tuple[Any, Part]:
+    """Carve the solid and write it; the part is report.json's `panel`."""
+    from relieffab.panel.carve import make_panel
+    from relieffab.panel.export import write_3mf, write_stl
+    from relieffab.panel.stock import MissingLibraryError, write_step
+
+    stock = stock_of(job)
+    panel = make_panel(relief, stock, tolerance=job.mesh_tolerance, progress=progress)
+    write_stl(panel, folder / "panel.stl")
+    write_3mf(panel, folder / "panel.3mf", name="relief panel")
+    part = {
+        "file": "panel.stl",
+        "triangles": len(panel.faces),
+        "watertight": panel.watertight,
+        "volume_mm3": panel.volume_mm3,
+        "max_error_mm": panel.max_error_mm,
+        "stock_file": "stock.step",
+        "stock_note": "",
+    }
+    try:
+        write_step(stock, folder / "stock.step")
+    except MissingLibraryError as missing:
+        part["stock_file"], part["stock_note"] = None, str(missing)
+    return panel, part
+
+
+def plan_paths(
+    relief: Relief, strokes: Sequence[Stroke], job: Job, progress: Progress = silent
+) -> tuple[Toolpath, ...]:
+    """Plan the toolpaths of a job."""
+    cutters = profiles.cutter(job.rough), profiles.cutter(job.finish), profiles.cutter(job.lines)
+    return plan(
+        relief,
+        strokes,
+        profiles.machine(job.machine),
+        profiles.material(job.material),
+        cutters=cutters,
+        stock=stock_of(job),
+        settings=Settings(stepover=job.stepover),
+        progress=progress,
+    )
+
+
+def write_programs(
+    paths: Sequence[Toolpath], relief: Relief, job: Job, folder: Path, header: dict[str, str]
+) -> list[Part]:
+    """Write one program a cutter; the parts are report.json's `programs`."""
+    machine = profiles.machine(job.machine)
+    parts = []
+    for path in paths:
+        number = {"rough": 1, "finish": 2, "lines": 3}[path.name]
+        file = f"{number:02d}-{path.name}.nc"
+        text = write_program(path, machine, stock_of(job), depth=relief.depth, header=header)
+        (folder / file).write_text(text, encoding="ascii", newline="\n")
+        program = read_program(text, name=file)
+        parts.append(
+            {
+                "file": file,
+                "cutter": {
+                    "name": path.cutter.name,
+                    "shape": path.cutter.shape,
+                    "diameter_mm": path.cutter.diameter,
+                    "tip_diameter_mm": path.cutter.tip_diameter,
+                    "angle_deg": path.cutter.angle,
+                },
+                "lines": text.count("\n"),
+                "seconds": round(estimate(program, machine), 1),
+                "cut_mm": round(path.cutting_length, 1),
+                "bounds_mm": np.round(program.bounds, 4).tolist(),
+                "sha256": hashlib.sha256(text.encode()).hexdigest(),
+            }
+        )
+    return parts
+
+
+def read_programs(folder: Path, programs: Sequence[Part]) -> list[Program]:
+    """Read the programs of a job back from their files."""
+    read = []
+    for part in programs:
+        path = folder / str(part["file"])
+        if not path.is_file():
+            raise InputError("a program of the job is missing", where=str(path))
+        read.append(read_program(path.read_text(encoding="latin-1"), name=path.name))
+    return read
+
+
+def verify_folder(
+    relief: Relief, job: Job, programs: Sequence[Part], folder: Path
+) -> tuple[Verification, Part]:
+    """Judge the programs on disk; the part is report.json's `verification`."""
+    verdict = verify(
+        read_programs(folder, programs),
+        [profiles.cutter(str(part["cutter"]["name"])) for part in programs],
+        relief,
+        stock_of(job),
+        profiles.machine(job.machine),
+    )
+    return verdict, {
+        "gouge_mm": round(verdict.gouge_mm, 5),
+        "excess_p99_mm": round(verdict.excess_p99_mm, 5),
+        "within_tolerance": round(verdict.within_tolerance, 5),
+        "tolerance_mm": verdict.tolerance_mm,
+        "ok": verdict.ok,
+        "findings": list(verdict.findings),
+    }
+
+
+def refuse(verdict: Verification) -> None:
+    """Stop a job whose programs would not carve its relief.
+
+    Raises
+    ------
+    FindingsError
+        With everything that was found.
+    """
+    if not verdict.ok:
+        raise FindingsError(
+            "the programs do not carve this relief; nothing was written",
+            found="\n    ".join(verdict.findings),
+        )
+
+
+def write_picture(relief: Relief, panel: Any, folder: Path) -> Part:
+    """Write preview.png; the part says how it was made."""
+    from relieffab.picture import panel_picture
+
+    image, method = panel_picture(relief, panel)
+    (folder / "preview.png").write_bytes(png8(image))
+    return {"file": "preview.png", "method": method}

@@ -1,0 +1,58 @@
+"""The folder a job leaves: either whole or not at all."""
+
+import contextlib
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from relieffab.errors import InputError
+
+REPORT = "report.json"
+
+
+def check_folder(folder: Path, *, overwrite: bool) -> None:
+    """Refuse a folder that could not take the job, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it is a file, already holds something, or cannot be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise InputError("the output is a file, not a folder", where=str(folder))
+    if folder.is_dir() and any(folder.iterdir()) and not overwrite:
+        holds = "a job" if (folder / REPORT).exists() else "files"
+        raise InputError(
+            f"the output folder already holds {holds}",
+            where=str(folder),
+            hint="another -o, or --overwrite to replace the files of the job",
+        )
+    parent = next(p for p in (folder, *folder.resolve().parents) if p.is_dir())
+    if not os.access(parent, os.W_OK):
+        raise InputError("the output folder cannot be written", where=str(parent))
+
+
+@contextlib.contextmanager
+def finished_together(folder: Path) -> Iterator[Path]:
+    """Give a scratch folder whose files move to `folder` when all went well.
+
+    The scratch folder lies beside it, so that moving is renaming.  After an
+    exception nothing of it stays.
+    """
+    folder = folder.resolve()
+    standing = next(parent for parent in folder.parents if parent.is_dir())
+    scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=standing))
+    try:
+        yield scratch
+        # The report last: a folder that has one is whole.
+        for source in sorted(scratch.rglob("*"), key=lambda path: (path.name == REPORT, path)):
+            target = folder / source.relative_to(scratch)
+            if source.is_dir():
+                target.mkdir(parents=True, exist_ok=True)
+            else:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                source.replace(target)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)

@@ -1,0 +1,64 @@
+"""Where settings come from: flags, environment, job file, user's configuration."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from relieffab.errors import InputError
+from relieffab.job.settings import SETTINGS, Chosen, resolve
+
+PREFIX = "RELIEFFAB_"
+
+
+def user_configuration() -> Path:
+    """Return the file whose settings serve every job of this user."""
+    return Path(platformdirs.user_config_dir("relieffab")) / "config.toml"
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file of settings."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(
+            "there is no such job file", where=str(path), hint="relieffab init writes one"
+        ) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as fault:
+        raise InputError(
+            "the job file cannot be read", found=str(fault), where=str(path)
+        ) from fault
+
+
+def gather(
+    flags: Mapping[str, Any], job_file: Path | None, environment: Mapping[str, str]
+) -> dict[str, Chosen]:
+    """Resolve all settings: flag > RELIEFFAB_* > job file > user configuration > default.
+
+    A model named in a job file is looked for beside that file.
+    """
+    sources: list[tuple[str, Mapping[str, Any]]] = [("flag", flags)]
+    for setting in SETTINGS:
+        variable = PREFIX + setting.name.upper()
+        if variable in environment:
+            sources.append((variable, {setting.name: environment[variable]}))
+    if job_file is not None:
+        values = read_toml(job_file)
+        if isinstance(values.get("model"), str) and values["model"]:
+            values["model"] = str(job_file.parent / values["model"])
+        sources.append((str(job_file), values))
+    user = user_configuration()
+    if user.is_file():
+        sources.append((str(user), read_toml(user)))
+    return resolve(sources)
+
+
+def template() -> str:
+    """Return the text of a job file that says what can be set, all at its default."""
+    lines = ["# A job for relieffab: relieffab make JOB.toml -o FOLDER", ""]
+    for setting in SETTINGS:
+        value = f'{setting.name} = "{setting.default}"'
+        lines += [f"# {setting.help}", value if setting.default else f"# {value}", ""]
+    return "\n".join(lines)

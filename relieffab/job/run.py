@@ -1,0 +1,192 @@
+"""A job from end to end: the whole chain into one folder."""
+
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from relieffab.errors import InputError
+from relieffab.job import chain
+from relieffab.job.folder import check_folder, finished_together
+from relieffab.job.report import Report, read_report, start_report, write_report
+from relieffab.job.settings import Chosen, Job, job_of
+from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
+from relieffab.layers.model import Layers
+from relieffab.layers.vectors import strokes_from_svg
+from relieffab.progress import Progress, silent
+from relieffab.relief.model import Relief
+from relieffab.relief.store import read_relief
+
+Settings = Mapping[str, Chosen]
+
+
+@contextmanager
+def _timed(report: Report, stage: str, progress: Progress) -> Iterator[None]:
+    progress(stage, 0, 1)
+    start = time.perf_counter()
+    yield
+    report["timings"][stage] = round(time.perf_counter() - start, 3)
+    progress(stage, 1, 1)
+
+
+def model_of(job: Job) -> tuple[Mesh, Path | None]:
+    """Read the job's model; without one, the toolkit's own scarab is modelled."""
+    if job.model is not None:
+        return read_mesh(job.model), Path(job.model)
+    from relieffab.subject import scarab
+
+    vertices, faces = scarab()
+    return make_mesh(vertices, faces, name="scarab", usual_up="y"), None
+
+
+def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Layers:
+    with _timed(report, "model", progress):
+        mesh, path = model_of(job)
+        report["model"] = chain.model_part(mesh, path)
+        view, note = chain.view_of(job, mesh)
+        if note:
+            report["model"]["notes"].append(note)
+    with _timed(report, "layers", progress):
+        layers, report["view"] = chain.make_layers(mesh, view, job)
+        chain.write_layers(layers, job, folder)
+    return layers
+
+
+def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[Layers, Relief]:
+    layers = _see(job, report, folder, progress)
+    with _timed(report, "relief", progress):
+        relief, report["relief"] = chain.solve_relief(layers, job, progress)
+        chain.write_relief(relief, folder)
+    report["relief"]["seconds"] = report["timings"]["relief"]
+    return layers, relief
+
+
+def make(
+    settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
+) -> Report:
+    """Carve a model: every stage, every file, judged from the files on disk.
+
+    Parameters
+    ----------
+    settings : mapping of Chosen
+        From `relieffab.job.load.gather`.
+    folder : Path
+        Where the files go; all of them or none.
+    overwrite : bool
+        Replace the files of a job that is there.
+    progress : Progress
+
+    Returns
+    -------
+    dict
+        What report.json holds.
+
+    Raises
+    ------
+    InputError
+        If something asked for cannot be done.
+    FindingsError
+        If the programs would not carve the relief.
+    """
+    job = job_of(settings)
+    check_folder(folder, overwrite=overwrite)
+    report = start_report(settings)
+    with finished_together(folder) as scratch:
+        layers, relief = _solve(job, report, scratch, progress)
+        with _timed(report, "panel", progress):
+            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
+        with _timed(report, "toolpaths", progress):
+            paths = chain.plan_paths(relief, layers.strokes, job, progress)
+        with _timed(report, "programs", progress):
+            header = {"model": report["model"]["name"], "version": report["version"]}
+            report["programs"] = chain.write_programs(paths, relief, job, scratch, header)
+        with _timed(report, "verify", progress):
+            verdict, report["verification"] = chain.verify_folder(
+                relief, job, report["programs"], scratch
+            )
+            chain.refuse(verdict)
+        with _timed(report, "picture", progress):
+            report["picture"] = chain.write_picture(relief, panel, scratch)
+        write_report(report, scratch)
+    return report
+
+
+def make_layers(
+    settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
+) -> Report:
+    """Take the three images of a model into a folder."""
+    check_folder(folder, overwrite=overwrite)
+    report = start_report(settings)
+    with finished_together(folder) as scratch:
+        _see(job_of(settings), report, scratch, progress)
+        write_report(report, scratch)
+    return report
+
+
+def make_relief(
+    settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
+) -> Report:
+    """Solve for the relief of a model into a folder."""
+    check_folder(folder, overwrite=overwrite)
+    report = start_report(settings)
+    with finished_together(folder) as scratch:
+        _, relief = _solve(job_of(settings), report, scratch, progress)
+        with _timed(report, "picture", progress):
+            report["picture"] = chain.write_picture(relief, None, scratch)
+        write_report(report, scratch)
+    return report
+
+
+def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
+    """Carve the panel of a relief that lies in a folder, beside it."""
+    job, report = job_of(settings), read_report(folder)
+    relief = read_relief(folder / "relief.tiff")
+    with finished_together(folder) as scratch:
+        with _timed(report, "panel", progress):
+            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
+        with _timed(report, "picture", progress):
+            report["picture"] = chain.write_picture(relief, panel, scratch)
+        _update(report, settings, scratch)
+    return report
+
+
+def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
+    """Plan, write and judge the programs of a relief that lies in a folder, beside it."""
+    job, report = job_of(settings), read_report(folder)
+    relief = read_relief(folder / "relief.tiff")
+    drawing = folder / "layers" / "lines.svg"
+    if not drawing.is_file():
+        raise InputError("the job has no drawing", where=str(drawing))
+    strokes = strokes_from_svg(drawing.read_text(encoding="utf-8"), where=str(drawing))
+    with finished_together(folder) as scratch:
+        with _timed(report, "toolpaths", progress):
+            paths = chain.plan_paths(relief, strokes, job, progress)
+        with _timed(report, "programs", progress):
+            header = {"model": report["model"]["name"], "version": report["version"]}
+            report["programs"] = chain.write_programs(paths, relief, job, scratch, header)
+        with _timed(report, "verify", progress):
+            verdict, report["verification"] = chain.verify_folder(
+                relief, job, report["programs"], scratch
+            )
+            chain.refuse(verdict)
+        _update(report, settings, scratch)
+    return report
+
+
+def verify_again(settings: Settings, folder: Path) -> Report:
+    """Judge the programs of a folder as they are now; nothing is written."""
+    report = read_report(folder)
+    if not report.get("programs"):
+        raise InputError(
+            "the job has no programs yet", where=str(folder), hint="relieffab toolpath FOLDER"
+        )
+    relief = read_relief(folder / "relief.tiff")
+    _, report["verification"] = chain.verify_folder(
+        relief, job_of(settings), report["programs"], folder
+    )
+    return report
+
+
+def _update(report: Report, settings: Settings, folder: Path) -> None:
+    report["settings"] = start_report(settings)["settings"]
+    write_report(report, folder)

@@ -1,0 +1,261 @@
+"""A job's settings: one table of names, how each is read, and what it is by default."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from relieffab import units
+from relieffab.errors import InputError, suggest
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One thing a job can be told.
+
+    Parameters
+    ----------
+    name : str
+        The same on the command line, in job files, in RELIEFFAB_* and in `Job`.
+    read : callable
+        From what a person types to the value; raises InputError.
+    default : str
+        As a person would type it; empty where nothing is a choice, too.
+    help : str
+    """
+
+    name: str
+    read: Callable[[Any], Any]
+    default: str
+    help: str
+
+
+def _positive(text: Any) -> float:
+    value = units.length(text)
+    if not 0 < value < 1e5:
+        raise InputError("a length must be more than 0", found=str(text))
+    return value
+
+
+def _not_negative(text: Any) -> float:
+    value = units.length(text)
+    if not 0 <= value < 1e5:
+        raise InputError("a length must be 0 or more", found=str(text))
+    return value
+
+
+def _size(text: Any) -> tuple[float, ...]:
+    values = units.lengths(str(text))
+    if len(values) != 2 or not all(0 < v < 1e5 for v in values):
+        raise InputError(
+            "the size is not a panel's", expected="width x height, as 120x90mm", found=str(text)
+        )
+    return values
+
+
+def _resolution(text: Any) -> tuple[int, int]:
+    parts = str(text).lower().split("x")
+    if len(parts) != 2 or not all(p.strip().isdigit() for p in parts):
+        raise InputError(
+            "the resolution is not two counts of pixels", expected="1024x768", found=str(text)
+        )
+    width, height = (int(p) for p in parts)
+    if not (16 <= width <= 16384 and 16 <= height <= 16384):
+        raise InputError(
+            "the resolution is out of range",
+            expected="16 to 16384 pixels each way",
+            found=str(text),
+        )
+    return width, height
+
+
+def _view(text: Any) -> str:
+    from relieffab.layers.view import VIEWS
+
+    if text not in VIEWS:
+        raise InputError(
+            "there is no view of that name", found=str(text), hint=suggest(str(text), VIEWS)
+        )
+    return str(text)
+
+
+def _up(text: Any) -> str:
+    if text not in ("y", "z"):
+        raise InputError("the up axis is not known", expected="y or z", found=repr(text))
+    return str(text)
+
+
+def _number(text: Any) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise InputError("this is not a number", found=repr(text)) from None
+    if not 0 <= value < 1e6:
+        raise InputError("a weight must be 0 or more", found=str(text))
+    return value
+
+
+SETTINGS = (
+    Setting("model", str, "", "model file: STL, OBJ, PLY, OFF, GLB or 3MF"),
+    Setting("size", _size, "120x90mm", "panel, width x height"),
+    Setting("thickness", _positive, "12mm", "of the stock"),
+    Setting("depth", _positive, "4mm", "of the relief at its deepest"),
+    Setting("resolution", _resolution, "1024x768", "pixels across and down"),
+    Setting("margin", _not_negative, "6mm", "flat border round the figure"),
+    Setting("view", _view, "front", "front, back, left, right, top or bottom"),
+    Setting("azimuth", units.angle, "", "where the viewer stands, 0 is the front, 90 the right"),
+    Setting("elevation", units.angle, "", "how far above the model the viewer stands"),
+    Setting("roll", units.angle, "0deg", "turn of the picture, counter-clockwise"),
+    Setting("up", _up, "", "the model's axis that points up, y or z; guessed if not given"),
+    Setting("form_length", _positive, "", "wider forms follow depth, finer ones shading"),
+    Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
+    Setting("line_depth", _not_negative, "", "of a drawn line; an eighth of the depth"),
+    Setting("line_detail", _not_negative, "1.2mm", "finer forms give no lines"),
+    Setting("wall_angle", units.angle, "80deg", "of the figure's edge against the face"),
+    Setting("machine", str, "3018-prover", "see `relieffab machines`"),
+    Setting("material", str, "softwood", "see `relieffab machines`"),
+    Setting("rough", str, "flat-3.175", "roughing cutter"),
+    Setting("finish", str, "tapered-ball-1", "finishing cutter"),
+    Setting("lines", str, "tapered-ball-0.5", "cutter for lines and what finishing leaves"),
+    Setting("stepover", _positive, "", "between finishing rows; from the scallop if not given"),
+    Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
+)
+TABLE = {setting.name: setting for setting in SETTINGS}
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is to be made; lengths in mm, angles in degrees, profiles by name.
+
+    Fields are the settings of `SETTINGS`, which says what each means.
+    """
+
+    model: str | None
+    size: tuple[float, float]
+    thickness: float
+    depth: float
+    resolution: tuple[int, int]
+    margin: float
+    view: str
+    azimuth: float | None
+    elevation: float | None
+    roll: float
+    up: str | None
+    form_length: float | None
+    line_width: float
+    line_depth: float | None
+    line_detail: float
+    wall_angle: float
+    machine: str
+    material: str
+    rough: str
+    finish: str
+    lines: str
+    stepover: float | None
+    mesh_tolerance: float
+
+    def __post_init__(self) -> None:
+        if self.depth >= self.thickness:
+            raise InputError(
+                "the relief would go through the stock",
+                expected=f"depth under the thickness, {self.thickness:g} mm",
+                found=f"{self.depth:g} mm",
+                where="depth",
+                hint="a thicker stock (--thickness) or a shallower relief (--depth)",
+            )
+        if 2 * self.margin >= min(self.size):
+            raise InputError(
+                "the margin leaves no room for the figure",
+                expected=f"under {min(self.size) / 2:g} mm",
+                found=f"{self.margin:g} mm",
+                where="margin",
+            )
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A setting's value and who chose it.
+
+    Parameters
+    ----------
+    text : str
+        As it was typed; empty for none.
+    value : object
+    origin : str
+        'flag', 'RELIEFFAB_SIZE', a file's name, or 'default'.
+    """
+
+    text: str
+    value: Any
+    origin: str
+
+
+def resolve(sources: list[tuple[str, Mapping[str, Any]]]) -> dict[str, Chosen]:
+    """Choose each setting from the first source that has it.
+
+    Parameters
+    ----------
+    sources : list of (origin, mapping)
+        Strongest first; values as typed.
+
+    Returns
+    -------
+    dict of Chosen
+        Every setting, defaults included.
+
+    Raises
+    ------
+    InputError
+        If a source has an unknown key or a value that cannot be read.
+    """
+    for origin, values in sources:
+        for name in values:
+            if name not in TABLE:
+                raise InputError(
+                    f"there is no setting {name!r}", where=origin, hint=suggest(name, TABLE)
+                )
+    chosen = {}
+    for setting in SETTINGS:
+        found = [
+            (origin, values[setting.name]) for origin, values in sources if setting.name in values
+        ]
+        origin, text = found[0] if found else ("default", setting.default)
+        chosen[setting.name] = Chosen(str(text), _read(setting, text, origin), origin)
+    return chosen
+
+
+def _read(setting: Setting, text: Any, origin: str) -> Any:
+    if text == "":
+        return None
+    if isinstance(text, (bool, list, dict)):
+        raise InputError(
+            f"{setting.name} cannot be {text!r}",
+            expected=f"a value such as {setting.default or setting.help}",
+            where=origin,
+        )
+    try:
+        return setting.read(text)
+    except InputError as fault:
+        raise InputError(f"{setting.name}: {fault}", where=origin) from fault
+
+
+def job_of(chosen: Mapping[str, Chosen]) -> Job:
+    """Build the job from resolved settings."""
+    return Job(**{name: choice.value for name, choice in chosen.items()})
+
+
+def default_job(**values: Any) -> Job:
+    """Return a job of default settings but for those given, as typed or as values.
+
+    Examples
+    --------
+    >>> default_job(size="6in x 4in", depth="1/8").depth
+    Traceback (most recent call last):
+    ...
+    relieffab.errors.InputError: depth: this is not a length
+      expected: a number with a unit, as in 6mm or 0.25in
+      found: '1/8'
+      where: call
+    >>> default_job(size="200x100mm").size
+    (200.0, 100.0)
+    """
+    return job_of(resolve([("call", values)]))

@@ -1,0 +1,218 @@
+"""Layers to the terms of the energy: what is asked of every pixel and node."""
+
+from dataclasses import dataclass
+from math import radians, tan
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from relieffab.errors import InputError
+from relieffab.layers.model import Layers
+from relieffab.layers.shading import lambert
+from relieffab.relief.compress import compress, form, occlusions, slopes
+from relieffab.relief.energy import Terms
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+TWIST = 0.05  # share of the other terms' weight that a pixel's twist gets
+BORDER = 3  # pixels of background kept round the figure
+
+
+@dataclass(frozen=True)
+class Carving:
+    """How a relief is carved: lengths in mm, weights plain numbers.
+
+    Parameters
+    ----------
+    depth : float
+        Of the relief at its deepest, mm.
+    line_depth : float or None
+        Of a line at full strength, below the surface around it, mm; an eighth of
+        the depth if None.
+    form_length : float or None
+        Forms wider than this follow the depth order, finer ones the shading, mm;
+        2 % of the figure's width or height, whichever is larger, if None.
+    wall_angle : float
+        Of the wall at the figure's edge against the panel's face, degrees.
+    depth_weight, light_weight, line_weight, form_weight : float
+    """
+
+    depth: float = 4.0
+    line_depth: float | None = None
+    form_length: float | None = None
+    wall_angle: float = 80.0
+    depth_weight: float = 1.0
+    light_weight: float = 1.0
+    line_weight: float = 4.0
+    form_weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0 < self.depth < np.inf:
+            raise InputError(
+                "the relief needs a depth", expected="more than 0 mm", found=f"{self.depth:g} mm"
+            )
+        if not 0 < self.wall_angle < 90:
+            raise InputError(
+                "the wall cannot stand at that angle",
+                expected="more than 0, less than 90 degrees",
+                found=f"{self.wall_angle:g}",
+            )
+        for name in ("line_depth", "form_length"):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value < np.inf:
+                raise InputError(f"{name} cannot be {value:g} mm", expected="0 mm or more")
+        if self.form_length == 0:
+            raise InputError("form_length cannot be 0 mm", expected="more than 0 mm")
+        weights = {
+            name: getattr(self, name)
+            for name in ("depth_weight", "light_weight", "line_weight", "form_weight")
+        }
+        for name, value in weights.items():
+            if not 0 <= value < np.inf:
+                raise InputError(f"{name} cannot be {value:g}", expected="0 or more")
+        if self.form_weight == 0:
+            raise InputError(
+                "the form weight cannot be 0: without it no height is better than another",
+                expected="more than 0",
+            )
+
+
+def wall(mask: Bools, pitch: float, angle: float) -> Floats:
+    """Lowest heights that leave a drafted wall at the figure's edge.
+
+    Parameters
+    ----------
+    mask : (rows, cols) ndarray of bool
+    pitch : float
+        mm.
+    angle : float
+        Of the wall against the panel's face, degrees.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        mm, 0 at the edge and outside.
+    """
+    return -tan(radians(angle)) * pitch * np.maximum(inward_distance(mask), 0.0)
+
+
+def inward_distance(mask: Bools) -> Floats:
+    """Distance of nodes to the figure's edge, positive inside, in pixels.
+
+    The mask's staircase is smoothed away, so that the edge runs between nodes.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+    """
+    padded = np.pad(mask, 1)
+    inside = ndimage.distance_transform_edt(padded)
+    outside = ndimage.distance_transform_edt(~padded)
+    signed = np.where(padded, inside - 0.5, 0.5 - outside)
+    smooth = ndimage.gaussian_filter(signed, 1.0)
+    return (smooth[:-1, :-1] + smooth[:-1, 1:] + smooth[1:, :-1] + smooth[1:, 1:]) / 4
+
+
+def to_nodes(pixels: Floats, weight: Floats) -> Floats:
+    """Weighted means of the up to four pixels around each node.
+
+    Parameters
+    ----------
+    pixels, weight : (rows, cols) ndarray
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        0 where no pixel has weight.
+    """
+    total, mass = np.zeros((2, pixels.shape[0] + 1, pixels.shape[1] + 1))
+    for i in (slice(None, -1), slice(1, None)):
+        for j in (slice(None, -1), slice(1, None)):
+            total[i, j] += pixels * weight
+            mass[i, j] += weight
+    return np.divide(total, mass, out=np.zeros_like(total), where=mass > 0)
+
+
+def groove(layers: Layers, line_depth: float) -> Floats:
+    """Profile of the lines on nodes, 0 beside them, negative in them, mm.
+
+    Ink is rounded over a third of a millimetre, so that strokes have flanks a
+    cutter can follow; full strength reaches the line depth.
+    """
+    ink = ndimage.gaussian_filter(layers.lines, 0.12 / layers.pitch)
+    return -line_depth * to_nodes(np.minimum(1.25 * ink, 1.0), np.ones_like(ink))
+
+
+def _pixel_slopes(nodes: Floats, pitch: float) -> Floats:
+    a, b, c, d = nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, :-1], nodes[1:, 1:]
+    return np.stack([(b + d - a - c), (a + b - c - d)]) / (2 * pitch)
+
+
+def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
+    """Nodes whose four pixels are in the figure with no occlusion between them."""
+    whole = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
+    four = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
+    torn = across[:-1] | across[1:] | down[:, :-1] | down[:, 1:]
+    whole[1:-1, 1:-1] = four & ~torn
+    return whole
+
+
+def terms_of(layers: Layers, carving: Carving) -> Terms:
+    """Put the energy's terms together.
+
+    Parameters
+    ----------
+    layers : Layers
+        Its figure at least `BORDER` pixels from the edge of its grid.
+    carving : Carving
+
+    Returns
+    -------
+    Terms
+    """
+    mask, pitch = layers.mask, layers.pitch
+    rows, cols = np.nonzero(mask.any(axis=1))[0], np.nonzero(mask.any(axis=0))[0]
+    widest = pitch * max(np.ptp(rows) + 1, np.ptp(cols) + 1)
+    form_length = carving.form_length or 0.02 * widest
+    line_depth = carving.depth / 8 if carving.line_depth is None else carving.line_depth
+    slope = slopes(layers)
+    across, down = occlusions(layers, slope)
+    torn = np.zeros_like(mask)
+    torn[:, :-1] |= across
+    torn[:, 1:] |= across
+    torn[:-1] |= down
+    torn[1:] |= down
+    sound = mask & ~torn
+    cut = groove(layers, line_depth)
+    cut_slope = _pixel_slopes(cut, pitch) * mask
+    count = int(mask.sum())
+    stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
+    figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
+    base = to_nodes(form(layers, carving.depth), mask.astype(float)) + cut
+    slope_weight = (carving.depth_weight + carving.line_weight * stencil) * sound / count
+    light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
+    corners = light_weight[:-1, :-1] + light_weight[:-1, 1:]
+    corners += light_weight[1:, :-1] + light_weight[1:, 1:]
+    return Terms(
+        pitch=pitch,
+        lights=layers.lights,
+        slope_weight=slope_weight,
+        slope=compress(slope, mask) + cut_slope,
+        light_weight=light_weight,
+        radiance=layers.shading + _tilted(layers, cut_slope),
+        twist_weight=TWIST * (slope_weight + corners / (4 * pitch**2)),
+        form_weight=carving.form_weight * figure / form_length**2 / count,
+        form=np.clip(base, -carving.depth, 0.0) * figure,
+        depth=carving.depth,
+    )
+
+
+def _tilted(layers: Layers, cut_slope: Floats) -> Floats:
+    """Change of the shading where lines tilt the surface, (k, rows, cols)."""
+    tilted = layers.normals.copy()
+    tilted[..., 0] -= cut_slope[0] * layers.normals[..., 2]
+    tilted[..., 1] -= cut_slope[1] * layers.normals[..., 2]
+    tilted /= np.linalg.norm(tilted, axis=2, keepdims=True)
+    return lambert(tilted, layers.lights) - lambert(layers.normals, layers.lights)

@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+
+from relieffab.grid import Grid
+from relieffab.layers.model import Layers
+from relieffab.layers.shading import default_lights
+from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes
+
+
+def plane_layers(p, q, step=0.0):
+    """A tilted plane, its right half `step` mm higher."""
+    grid = Grid(20, 30, 0.5, (0.0, 10.0))
+    i, j = np.indices(grid.shape)
+    x, y = grid.to_xy(i + 0.5, j + 0.5)
+    normal = np.array([-p, -q, 1]) / np.sqrt(1 + p * p + q * q)
+    return Layers(
+        grid=grid,
+        depth=p * x + q * y + step * (j >= 15),
+        normals=np.broadcast_to(normal, (*grid.shape, 3)).copy(),
+        mask=np.ones(grid.shape, bool),
+        lights=default_lights(),
+        shading=np.zeros((2, *grid.shape)),
+        lines=np.zeros(grid.shape),
+    )
+
+
+def test_slopes_of_a_plane():
+    v = slopes(plane_layers(0.3, -0.8))
+    np.testing.assert_allclose(v[0], 0.3)
+    np.testing.assert_allclose(v[1], -0.8)
+
+
+def test_slopes_stop_at_the_steepest():
+    v = slopes(plane_layers(300.0, 400.0))
+    np.testing.assert_allclose(np.hypot(v[0], v[1]), STEEPEST)
+
+
+def test_compression_keeps_direction_and_order():
+    rng = np.random.default_rng(0)
+    v = rng.normal(size=(2, 9, 11)) * 3
+    mask = np.ones((9, 11), bool)
+    g = compress(v, mask)
+    size, small = np.hypot(*v), np.hypot(*g)
+    np.testing.assert_allclose(v[0] * g[1], v[1] * g[0], atol=1e-12)
+    assert (np.diff(small.ravel()[size.ravel().argsort()]) > 0).all()
+    assert (small <= size + 1e-12).all()
+    gamma = 0.1 * size.mean()
+    np.testing.assert_allclose(small, np.minimum(size, gamma * (size / gamma) ** 0.8))
+
+
+def test_nothing_blows_up_at_zero_slope():
+    zero = np.zeros((2, 4, 4))
+    assert (compress(zero, np.ones((4, 4), bool)) == 0).all()
+    zero[0, 0, 0] = 1.0
+    assert np.isfinite(compress(zero, np.ones((4, 4), bool))).all()
+
+
+@pytest.mark.parametrize(("p", "q"), [(0.0, 0.0), (2.0, -1.0), (6.0, 3.0)])
+def test_a_plane_has_no_occlusion_and_a_step_has(p, q):
+    smooth = plane_layers(p, q)
+    assert not any(o.any() for o in occlusions(smooth, slopes(smooth)))
+    torn = plane_layers(p, q, step=0.5 * 2 * (1.1 + max(p, -q)))
+    across, down = occlusions(torn, slopes(torn))
+    assert across[:, 14].all()
+    assert across.sum() == 20
+    assert not down.any()
+
+
+def test_form_keeps_the_depth_order_and_its_room():
+    rng = np.random.default_rng(2)
+    layers = plane_layers(0.1, 0.2)
+    depth = rng.gamma(1.0, 5.0, layers.grid.shape)
+    uneven = Layers(**{**vars(layers), "depth": depth})
+    f = form(uneven, 4.0, headroom=0.25)
+    order = depth.ravel().argsort()
+    assert (np.diff(f.ravel()[order]) >= 0).all()
+    assert f.min() == pytest.approx(-4)
+    assert f.max() == pytest.approx(-1)

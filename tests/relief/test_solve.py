@@ -1,0 +1,155 @@
+import numpy as np
+import pytest
+
+from relieffab.grid import Grid
+from relieffab.layers.model import Layers
+from relieffab.layers.shading import lambert
+from relieffab.relief.energy import linearise
+from relieffab.relief.model import Relief
+from relieffab.relief.solve import Window, descend, halve, make_relief, projected_gradient
+from relieffab.relief.targets import Carving, terms_of, to_nodes
+
+
+@pytest.fixture(scope="module")
+def carved(layers):
+    return make_relief(layers, Carving(depth=1.5))
+
+
+def shading_of(relief, lights):
+    h, pitch = relief.heights, relief.grid.pitch
+    p = (h[:-1, 1:] + h[1:, 1:] - h[:-1, :-1] - h[1:, :-1]) / (2 * pitch)
+    q = (h[:-1, :-1] + h[:-1, 1:] - h[1:, :-1] - h[1:, 1:]) / (2 * pitch)
+    normals = np.stack([-p, -q, np.ones_like(p)], axis=2)
+    return lambert(normals / np.linalg.norm(normals, axis=2, keepdims=True), lights)
+
+
+def contrast(relief, layers):
+    """How strongly the model's fine shading shows in the relief's: 1 is undiminished."""
+    from scipy.ndimage import binary_erosion, gaussian_filter
+
+    inside = binary_erosion(layers.mask, iterations=8)
+    gains = []
+    for a, b in zip(shading_of(relief, layers.lights), layers.shading, strict=True):
+        x, y = ((s - gaussian_filter(s, 4))[inside] for s in (a, b))
+        gains.append((x @ y) / (y @ y))
+    return np.mean(gains)
+
+
+def test_bounds_hold_exactly_and_the_top_is_on_the_face(carved, layers):
+    relief, _ = carved
+    figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
+    assert relief.heights.min() >= -1.5
+    assert relief.heights.max() == 0
+    assert (relief.heights[~figure] == 0).all()
+    assert relief.heights.min() < -1.0
+
+
+def test_detail_is_kept_where_linear_compression_loses_it(carved, layers):
+    relief, _ = carved
+    seen = layers.depth[layers.mask]
+    linear = np.where(layers.mask, (layers.depth - seen.max()) / np.ptp(seen) * 1.5, 0)
+    plain = Relief(layers.grid, to_nodes(linear, layers.mask.astype(float)), layers.mask, 1.5)
+    assert contrast(relief, layers) > 0.5
+    assert contrast(relief, layers) > 2 * contrast(plain, layers)
+
+
+def test_the_energy_is_at_its_minimum_within_the_bounds(layers):
+    terms = terms_of(layers, Carving(depth=1.5))
+    h, solution = descend(terms, np.clip(terms.form, -1.5, 0), tolerance=1e-4, most=40)
+    assert solution.residual <= 1e-4
+    here = linearise(terms, h).value
+    rng = np.random.default_rng(0)
+    for _ in range(5):
+        step = 1e-3 * rng.normal(size=h.shape) * (terms.form_weight > 0)
+        assert linearise(terms, np.clip(h + step, -1.5, 0)).value > here
+
+
+def test_another_first_guess_gives_the_same_relief(layers):
+    terms = terms_of(layers, Carving(depth=1.5))
+    figure = terms.form_weight > 0
+    guesses = np.clip(terms.form, -1.5, 0), np.where(figure, -0.7, 0.0)
+    a, b = (descend(terms, g, tolerance=1e-6, most=60)[0] for g in guesses)
+    assert np.abs(a - b).max() < 0.01 * 1.5
+
+
+def test_twice_the_resolution_gives_the_same_relief(carved, finer_layers):
+    from scipy.ndimage import binary_erosion
+
+    fine, _ = make_relief(finer_layers, Carving(depth=1.5))
+    coarse, _ = carved
+    inside = binary_erosion(coarse.mask, iterations=6)
+    nodes = inside[:-1, :-1] & inside[1:, 1:]
+    a, b = coarse.heights[1:-1, 1:-1][nodes], fine.heights[::2, ::2][1:-1, 1:-1][nodes]
+    assert np.sqrt(np.mean((a - b) ** 2)) < 0.02 * 1.5
+
+
+def test_a_line_is_carved_where_it_is_drawn(layers, carved):
+    lines = np.zeros(layers.grid.shape)
+    lines[:, 79:81] = 1.0
+    drawn = Layers(**{**vars(layers), "lines": lines})
+    relief, _ = make_relief(drawn, Carving(depth=1.5, line_depth=0.3))
+    from scipy.ndimage import binary_erosion
+
+    rows = binary_erosion(layers.mask, iterations=8)[:, 80]
+    here = relief.heights[:-1][rows]
+    groove = here[:, 80] - (here[:, 74] + here[:, 86]) / 2
+    plain = carved[0].heights[:-1][rows]
+    before = plain[:, 80] - (plain[:, 74] + plain[:, 86]) / 2
+    assert np.median(groove - before) < -0.15
+
+
+def test_a_figure_that_touches_the_border_is_carved(layers):
+    cut = Layers(
+        grid=Grid(60, 80, layers.pitch, layers.grid.origin),
+        depth=layers.depth[30:90, 40:120],
+        normals=layers.normals[30:90, 40:120],
+        mask=layers.mask[30:90, 40:120],
+        lights=layers.lights,
+        shading=layers.shading[:, 30:90, 40:120],
+        lines=layers.lines[30:90, 40:120],
+    )
+    assert cut.mask.all()
+    relief, _ = make_relief(cut, Carving(depth=1.5))
+    assert relief.heights.min() < -0.5
+
+
+def test_a_figure_of_a_few_pixels_is_carved(layers):
+    mask = np.zeros(layers.grid.shape, bool)
+    mask[60:63, 80:82] = True
+    speck = Layers(**{**vars(layers), "mask": mask, "depth": layers.depth * mask})
+    relief, _ = make_relief(speck, Carving(depth=1.5))
+    assert np.isfinite(relief.heights).all()
+
+
+def test_progress_is_told_and_can_cancel(layers):
+    told = []
+    make_relief(layers, Carving(depth=1.5), progress=lambda *a: told.append(a))
+    assert told
+
+    def cancel(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        make_relief(layers, Carving(depth=1.5), progress=cancel)
+
+
+def test_halving_keeps_the_nearest_of_four(layers):
+    half = halve(layers)
+    assert half.grid.shape == (60, 80)
+    near = np.where(layers.mask, layers.depth, -np.inf).reshape(60, 2, 80, 2).max(axis=(1, 3))
+    np.testing.assert_array_equal(half.depth[half.mask], near[half.mask])
+    assert half.mask.sum() * 4 >= layers.mask.sum()
+
+
+def test_a_window_gives_back_what_it_took():
+    whole = np.arange(42.0).reshape(6, 7)
+    window = Window(-2, 3, 5, 9)
+    back = window.put(window.take(whole), whole.shape)
+    np.testing.assert_array_equal(back[:4, 3:], whole[:4, 3:])
+    assert (back[4:] == 0).all()
+
+
+def test_gradients_against_bounds_are_dropped():
+    h = np.array([-2.0, -2.0, 0.0, 0.0, -1.0])
+    gradient = np.array([1.0, -1.0, 1.0, -1.0, 5.0])
+    np.testing.assert_array_equal(projected_gradient(gradient, h, 2.0), [0, -1, 1, 0, 5])
