@@ -11,6 +11,12 @@ from relieffab.errors import InputError, suggest
 
 Shape = Literal["flat", "ball", "bull", "vee", "tapered ball"]
 
+_OWN = {
+    "angle": ("vee", "tapered ball"),
+    "tip_diameter": ("vee", "tapered ball"),
+    "corner_radius": ("bull",),
+}
+
 
 @dataclass(frozen=True)
 class Cutter:
@@ -68,8 +74,14 @@ class Cutter:
         for name in ("diameter", "flute_length", "stepdown", "feed", "plunge", "rpm"):
             value = getattr(self, name)
             if not 0 < value < inf:
+                raise InputError(f"{name} cannot be {value}", expected="more than 0", where=where)
+        for name, shapes in _OWN.items():
+            if getattr(self, name) and self.shape not in shapes:
                 raise InputError(
-                    f"{name} cannot be {value}", expected="more than 0", where=where
+                    f"a {self.shape} cutter has no {name}",
+                    expected=f"{name} only for: {', '.join(shapes)}",
+                    found=f"{getattr(self, name)}",
+                    where=where,
                 )
         if self.shape in ("vee", "tapered ball") and not 0 < self.angle < 180:
             raise InputError(
@@ -149,12 +161,12 @@ class Cutter:
         ndarray
             Height in mm, infinite beyond `radius`.
         """
-        r = np.abs(np.asarray(r, dtype=float))
+        away = np.abs(np.asarray(r, dtype=float))
         half = radians(self.angle / 2)
-        across = np.clip(r - self.flat_radius, 0.0, self.arc_end - self.flat_radius)
+        across = np.clip(away - self.flat_radius, 0.0, self.arc_end - self.flat_radius)
         height = self.tip_radius - np.sqrt(np.maximum(self.tip_radius**2 - across**2, 0.0))
         if self.angle:
             arc_height = self.tip_radius * (1 - sin(half))
-            cone = arc_height + (r - self.arc_end) * self.flank
-            height = np.where(r > self.arc_end, cone, height)
-        return np.where(r > self.radius * (1 + 1e-12), inf, height)
+            cone = arc_height + (away - self.arc_end) * self.flank
+            height = np.where(away > self.arc_end, cone, height)
+        return np.where(away > self.radius * (1 + 1e-12), inf, height)

@@ -63,6 +63,14 @@ class Machine:
                     found=f"{value}",
                     where=f"machine {self.name}",
                 )
+        slow, fast = self.spindle
+        if not 0 <= slow <= fast or fast <= 0:
+            raise InputError(
+                "the spindle's speeds are out of order",
+                expected="slowest and fastest, from 0 up",
+                found=f"{slow:g} to {fast:g} rpm",
+                where=f"machine {self.name}",
+            )
         if self.safe_height <= 0:
             raise InputError(
                 "the safe height must lie above the panel's face",

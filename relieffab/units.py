@@ -72,7 +72,7 @@ def lengths(text: str) -> tuple[float, ...]:
     >>> lengths("4in x 3in x 1cm")
     (101.6, 76.19999999999999, 10.0)
     """
-    parts = re.split(r"\s*[x×X]\s*", text.strip())
+    parts = re.split(r"\s*[xX×]\s*", text.strip())  # noqa: RUF001
     last_unit = _split(parts[-1], "a size", "120x90mm")[1]
     units = [_split(part, "a size", "120x90mm")[1] for part in parts]
     return tuple(

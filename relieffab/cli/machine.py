@@ -1,15 +1,19 @@
 """send and machines: what concerns the machine itself."""
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from relieffab.cli import console
 from relieffab.cli.options import Json
 from relieffab.errors import InputError
+
+if TYPE_CHECKING:
+    from relieffab.grbl.sender import SendReport
 
 
 def send(
@@ -31,7 +35,7 @@ def send(
     return 0
 
 
-def stream(text: str, url: str, baud: int = 115200):  # type: ignore[no-untyped-def]
+def stream(text: str, url: str, baud: int = 115200) -> "SendReport":
     """Send text through a port with a bar that counts the millimetres cut."""
     from relieffab.grbl.port import open_port
     from relieffab.grbl.sender import send as send_program
@@ -52,12 +56,12 @@ def machines(
     """List machines, cutters or materials, or print one."""
     from relieffab import profiles
 
-    read = {
+    read: dict[str, Callable[[str], Any]] = {
         "machines": profiles.machine,
         "cutters": profiles.cutter,
         "materials": profiles.material,
-    }[kind]
-    chosen = [read(one) for one in ([name] if name else profiles.names(kind))]
+    }
+    chosen = [read[kind](one) for one in ([name] if name else profiles.names(kind))]
     if as_json:
         print(json.dumps([asdict(one) for one in chosen], indent=2, ensure_ascii=False))
     elif name:

@@ -62,7 +62,7 @@ def relief(
     return _from_model("make_relief", source, output, flags, overwrite, as_json, show_config)
 
 
-def _from_model(  # noqa: PLR0913
+def _from_model(
     stage: str,
     source: str,
     output: Path,

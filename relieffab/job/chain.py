@@ -10,16 +10,17 @@ import numpy as np
 from relieffab import profiles
 from relieffab.errors import FindingsError, InputError
 from relieffab.gcode.estimate import estimate
-from relieffab.gcode.read import Program, read_program
+from relieffab.gcode.program import Program
+from relieffab.gcode.read import read_program
 from relieffab.gcode.verify import Verification, verify
 from relieffab.gcode.write import write_program
+from relieffab.grid import Grid
 from relieffab.job.settings import Job
 from relieffab.layers.drawing import strokes_to_svg
 from relieffab.layers.make import Drawing, layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place
-from relieffab.grid import Grid
 from relieffab.picture import png8, png16
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
@@ -34,12 +35,12 @@ Part = dict[str, Any]
 
 
 def stock_of(job: Job) -> Stock:
-    """The slab a job is carved from."""
+    """Return the slab a job is carved from."""
     return Stock(job.size[0], job.size[1], job.thickness)
 
 
 def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
-    """The view a job asks for, and a note where the up axis had to be guessed."""
+    """Return the view a job asks for, and a note where the up axis had to be guessed."""
     up = job.up or guess_up(mesh)
     azimuth, elevation = VIEWS[job.view]
     view = View(
@@ -52,7 +53,7 @@ def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
 
 
 def model_part(mesh: Mesh, path: Path | None) -> Part:
-    """What report.json says of the model."""
+    """Describe the model as report.json does."""
     return {
         "name": mesh.name,
         "vertices": len(mesh.vertices),
@@ -97,6 +98,7 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
         line_depth=job.line_depth,
         form_length=job.form_length,
         wall_angle=job.wall_angle,
+        fillet=profiles.cutter(job.lines).tip_radius,
     )
     relief, solution = make_relief(layers, carving, progress=progress)
     return relief, {
@@ -124,7 +126,7 @@ def write_panel(
     """Carve the solid and write it; the part is report.json's `panel`."""
     from relieffab.panel.carve import make_panel
     from relieffab.panel.export import write_3mf, write_stl
-    from relieffab.panel.stock import MissingLibraryError, write_step
+    from relieffab.panel.stock import CadUnavailableError, write_step
 
     stock = stock_of(job)
     panel = make_panel(relief, stock, tolerance=job.mesh_tolerance, progress=progress)
@@ -141,7 +143,7 @@ def write_panel(
     }
     try:
         write_step(stock, folder / "stock.step")
-    except MissingLibraryError as missing:
+    except CadUnavailableError as missing:
         part["stock_file"], part["stock_note"] = None, str(missing)
     return panel, part
 

@@ -10,7 +10,9 @@ img { max-width: 100%; height: auto }
 table { border-collapse: collapse; width: 100%; margin: 0 0 1.5rem }
 th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px solid #8884 }
 .ok { color: #2a7a2a } .bad { color: #b22 }
-@media (prefers-color-scheme: dark) { body { background: #1b1b1b; color: #ddd } .ok { color: #7c7 } }
+@media (prefers-color-scheme: dark) {
+  body { background: #1b1b1b; color: #ddd } .ok { color: #7c7 }
+}
 """
 
 

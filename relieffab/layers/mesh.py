@@ -147,15 +147,15 @@ def make_mesh(
         no volume and no surface to speak of.
     """
     vertices = np.array(vertices, np.float64)
-    faces = np.array(faces, np.int64)
-    _refuse_broken(vertices, faces, name)
+    triangles: Ints = np.array(faces, np.int64)
+    _refuse_broken(vertices, triangles, name)
     notes: list[str] = []
-    vertices, faces = _merge(vertices, faces)
-    faces = _drop_bad(faces, vertices, notes)
-    if len(faces) == 0:
+    vertices, triangles = _merge(vertices, triangles)
+    triangles = _drop_bad(triangles, vertices, notes)
+    if len(triangles) == 0:
         raise InputError("every triangle of the model is degenerate", where=name)
-    faces = _orient(vertices, faces, notes)
-    return Mesh(vertices, faces, name, tuple(notes), usual_up)
+    triangles = _orient(vertices, triangles, notes)
+    return Mesh(vertices, triangles, name, tuple(notes), usual_up)
 
 
 def _refuse_broken(vertices: Floats, faces: Ints, name: str) -> None:

@@ -38,7 +38,7 @@ def lambert(normals: Floats, lights: Floats) -> Floats:
 
 
 def face_normals(vertices: Floats, faces: Ints) -> Floats:
-    """Normals of the faces, (f, 3), as long as twice the face's area."""
+    """Return normals of the faces, (f, 3), as long as twice the face's area."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     return np.cross(b - a, c - a)
 
@@ -89,7 +89,7 @@ def smoothing_groups(vertices: Floats, faces: Ints, crease: float) -> tuple[Ints
 def pixel_normals(
     raster: Raster, vertices: Floats, faces: Ints, grid: Grid, *, crease: float = 40.0
 ) -> Floats:
-    """Unit normals at the pixels, smooth over smooth edges, turned to the viewer.
+    """Find unit normals at the pixels, smooth over smooth edges, turned to the viewer.
 
     Parameters
     ----------

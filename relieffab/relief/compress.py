@@ -33,7 +33,7 @@ def slopes(layers: Layers) -> Floats:
 def compress(v: Floats, mask: Bools, *, exponent: float = 0.8, knee: float = 0.1) -> Floats:
     """Attenuate large slopes more than small ones.
 
-    G(v) = v (\\|v\\|/gamma)^(exponent - 1), with gamma the knee times the mean
+    G(v) = v (|v|/gamma)^(exponent - 1), with gamma the knee times the mean
     slope; below gamma slopes are kept as they are (Wang 2011, Eq. 10, with the
     modulus of Fattal 2002, Eq. 5).
 

@@ -104,7 +104,7 @@ def _residual(error, weight, pitch, rx, ry, sums):  # type: ignore[no-untyped-de
 
 @parallel_kernel
 def _pull_back(h, p, q, asked, twist_weight, slope_weight, rx, ry, dp, dq, pitch, gp, gq, gt, sums):  # type: ignore[no-untyped-def]
-    """Derivative of the energy by each pixel's slopes and twist; slope energy by row."""
+    """Find the derivative of the energy by each pixel's slopes and twist; slope energy by row."""
     rows, cols = p.shape
     for i in prange(rows):
         total = 0.0
@@ -155,7 +155,7 @@ def _gather(gp, gq, gt, h, form, form_weight, pitch, gradient, sums):  # type: i
 
 
 @parallel_kernel
-def _assemble(dp, dq, light_weight, slope_weight, twist_weight, form_weight, pitch, stencil):  # type: ignore[no-untyped-def]
+def _assemble(dp, dq, light_weight, slope_weight, twist_weight, form_weight, pitch, stencil):  # type: ignore[no-untyped-def] # noqa: PLR0912
     """Gauss-Newton operator as 25 couplings a node, laid out (row, coupling, column).
 
     A node's radiance rows touch the nodes one row off, so rows of one colour in

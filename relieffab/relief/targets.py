@@ -1,7 +1,6 @@
 """Layers to the terms of the energy: what is asked of every pixel and node."""
 
 from dataclasses import dataclass
-from math import radians, tan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,6 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 TWIST = 0.05  # share of the other terms' weight that a pixel's twist gets
-BORDER = 3  # pixels of background kept round the figure
 
 
 @dataclass(frozen=True)
@@ -29,13 +27,16 @@ class Carving:
     depth : float
         Of the relief at its deepest, mm.
     line_depth : float or None
-        Of a line at full strength, below the surface around it, mm; an eighth of
-        the depth if None.
+        Of a line at full strength, below the surface around it, mm; a sixteenth
+        of the depth if None.
     form_length : float or None
         Forms wider than this follow the depth order, finer ones the shading, mm;
         2 % of the figure's width or height, whichever is larger, if None.
     wall_angle : float
         Of the wall at the figure's edge against the panel's face, degrees.
+    fillet : float
+        Radius of a ball that reaches everywhere: what is narrower is filled, so
+        that a cutter with that tip carves what is shown, mm.
     depth_weight, light_weight, line_weight, form_weight : float
     """
 
@@ -43,7 +44,8 @@ class Carving:
     line_depth: float | None = None
     form_length: float | None = None
     wall_angle: float = 80.0
-    depth_weight: float = 1.0
+    fillet: float = 0.25
+    depth_weight: float = 4.0
     light_weight: float = 1.0
     line_weight: float = 4.0
     form_weight: float = 1.0
@@ -59,7 +61,7 @@ class Carving:
                 expected="more than 0, less than 90 degrees",
                 found=f"{self.wall_angle:g}",
             )
-        for name in ("line_depth", "form_length"):
+        for name in ("line_depth", "form_length", "fillet"):
             value = getattr(self, name)
             if value is not None and not 0 <= value < np.inf:
                 raise InputError(f"{name} cannot be {value:g} mm", expected="0 mm or more")
@@ -77,42 +79,6 @@ class Carving:
                 "the form weight cannot be 0: without it no height is better than another",
                 expected="more than 0",
             )
-
-
-def wall(mask: Bools, pitch: float, angle: float) -> Floats:
-    """Lowest heights that leave a drafted wall at the figure's edge.
-
-    Parameters
-    ----------
-    mask : (rows, cols) ndarray of bool
-    pitch : float
-        mm.
-    angle : float
-        Of the wall against the panel's face, degrees.
-
-    Returns
-    -------
-    (rows + 1, cols + 1) ndarray
-        mm, 0 at the edge and outside.
-    """
-    return -tan(radians(angle)) * pitch * np.maximum(inward_distance(mask), 0.0)
-
-
-def inward_distance(mask: Bools) -> Floats:
-    """Distance of nodes to the figure's edge, positive inside, in pixels.
-
-    The mask's staircase is smoothed away, so that the edge runs between nodes.
-
-    Returns
-    -------
-    (rows + 1, cols + 1) ndarray
-    """
-    padded = np.pad(mask, 1)
-    inside = ndimage.distance_transform_edt(padded)
-    outside = ndimage.distance_transform_edt(~padded)
-    signed = np.where(padded, inside - 0.5, 0.5 - outside)
-    smooth = ndimage.gaussian_filter(signed, 1.0)
-    return (smooth[:-1, :-1] + smooth[:-1, 1:] + smooth[1:, :-1] + smooth[1:, 1:]) / 4
 
 
 def to_nodes(pixels: Floats, weight: Floats) -> Floats:
@@ -165,7 +131,7 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
     Parameters
     ----------
     layers : Layers
-        Its figure at least `BORDER` pixels from the edge of its grid.
+        Its figure at least three pixels from the edge of its grid.
     carving : Carving
 
     Returns
@@ -176,7 +142,7 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
     rows, cols = np.nonzero(mask.any(axis=1))[0], np.nonzero(mask.any(axis=0))[0]
     widest = pitch * max(np.ptp(rows) + 1, np.ptp(cols) + 1)
     form_length = carving.form_length or 0.02 * widest
-    line_depth = carving.depth / 8 if carving.line_depth is None else carving.line_depth
+    line_depth = carving.depth / 16 if carving.line_depth is None else carving.line_depth
     slope = slopes(layers)
     across, down = occlusions(layers, slope)
     torn = np.zeros_like(mask)

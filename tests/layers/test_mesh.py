@@ -114,5 +114,5 @@ def test_files_that_are_no_models_are_refused(tmp_path, name, content, words):
 
 def test_a_missing_file_is_told_with_its_neighbour(tmp_path):
     (tmp_path / "horse.ply").write_bytes(b"x")
-    with pytest.raises(InputError, match="did you mean horse.ply"):
+    with pytest.raises(InputError, match=r"did you mean horse\.ply"):
         read_mesh(tmp_path / "hose.ply")

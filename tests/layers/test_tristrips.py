@@ -23,7 +23,7 @@ def as_set(mesh):
     """Faces by the places of their corners, rotated to start at the lowest."""
     found = set()
     for face in mesh.faces:
-        ids = [int(np.flatnonzero((VERTICES == mesh.vertices[k]).all(axis=1))[0]) for k in face]
+        ids = [int(np.flatnonzero((mesh.vertices[k] == VERTICES).all(axis=1))[0]) for k in face]
         turn = ids.index(min(ids))
         found.add(tuple(ids[turn:] + ids[:turn]))
     return found

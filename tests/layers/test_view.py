@@ -66,7 +66,7 @@ def test_flat_and_needle_models_are_refused(squash):
     box = trimesh.creation.box((1, 1, 1))
     vertices = box.vertices * squash + [0, 0, 1e-9] * box.vertices
     mesh = make_mesh(vertices, box.faces[:2] if 0 in squash else box.faces)
-    with pytest.raises(InputError, match="flat as seen|edge on"):
+    with pytest.raises(InputError, match=r"flat as seen|edge on"):
         place(mesh, View(up="y"), (120.0, 90.0), margin=6.0)
 
 

@@ -104,7 +104,6 @@ def test_without_light_the_operator_is_the_exact_hessian(setup):
 def test_the_operator_is_gauss_newtons(setup):
     # Where the radiance asked for is the one there is, the Hessian has no second part.
     rng, terms, h = setup
-    n, m = SHAPE
     zero = Terms(**{**vars(terms), "radiance": np.zeros_like(terms.radiance)})
     p = (h[:-1, 1:] + h[1:, 1:] - h[:-1, :-1] - h[1:, :-1]) / (2 * PITCH)
     q = (h[:-1, :-1] + h[:-1, 1:] - h[1:, :-1] - h[1:, 1:]) / (2 * PITCH)

@@ -6,8 +6,10 @@ from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
 from relieffab.relief.energy import linearise
 from relieffab.relief.model import Relief
-from relieffab.relief.solve import Window, descend, halve, make_relief, projected_gradient
+from relieffab.relief.pyramid import halve
+from relieffab.relief.solve import descend, make_relief, projected_gradient
 from relieffab.relief.targets import Carving, terms_of, to_nodes
+from relieffab.relief.window import Window
 
 
 @pytest.fixture(scope="module")

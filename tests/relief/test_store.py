@@ -49,7 +49,7 @@ def test_other_files_are_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         read_relief(tmp_path / "text.tiff")
     tifffile.imwrite(tmp_path / "other.tiff", np.zeros((4, 4), np.float32))
-    with pytest.raises(InputError, match="not a relief of ours|cannot be read"):
+    with pytest.raises(InputError, match=r"not a relief of ours|cannot be read"):
         read_relief(tmp_path / "other.tiff")
 
 

@@ -3,7 +3,8 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.targets import Carving, groove, inward_distance, terms_of, to_nodes, wall
+from relieffab.relief.edge import fill, inward_distance, wall
+from relieffab.relief.targets import Carving, groove, terms_of, to_nodes
 
 
 def disc(radius, size=80):
@@ -78,3 +79,17 @@ def test_nothing_is_asked_outside_the_figure(layers):
 def test_carvings_that_make_no_sense_are_refused(values):
     with pytest.raises(InputError):
         Carving(**values)
+
+
+def test_filling_is_the_rolling_ball_and_keeps_what_the_ball_reaches():
+    # A slot 0.3 mm wide and 1 mm deep; a ball of 0.25 mm radius bridges it.
+    pitch, radius = 0.05, 0.25
+    heights = np.zeros((41, 41))
+    heights[:, 18:23] = -1.0
+    filled = fill(heights, pitch, radius)
+    sag = radius - np.sqrt(radius**2 - 0.15**2)
+    assert filled[20, 20] == pytest.approx(-sag, abs=0.01)
+    assert (filled >= heights).all()
+    bowl = np.add.outer(np.linspace(-1, 1, 41) ** 2, np.linspace(-1, 1, 41) ** 2)
+    np.testing.assert_allclose(fill(bowl, pitch, radius)[9:-9, 9:-9], bowl[9:-9, 9:-9], atol=5e-3)
+    assert fill(heights, 1.0, radius) is heights

@@ -1,0 +1,113 @@
+"""Limits: how far a program may go; the one place that says so.
+
+The writer refuses to write what breaks them, and the verifier reports it of a
+text that somebody else wrote.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.cutter import Cutter
+from relieffab.machine import Machine
+from relieffab.stock import Stock
+
+Floats = NDArray[np.float64]
+
+SLACK = 1e-6  # mm, for the arithmetic of offsets and units
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What bounds one cutter's motion.
+
+    Parameters
+    ----------
+    depth : float
+        Of the relief, positive, mm.
+    cutter : Cutter
+    stock : Stock
+    machine : Machine
+    """
+
+    depth: float
+    cutter: Cutter
+    stock: Stock
+    machine: Machine
+
+    def findings(
+        self, points: Floats, feed: Floats, line: NDArray[np.int64] | None = None
+    ) -> tuple[str, ...]:
+        """List every limit the motion breaks, one sentence each.
+
+        Parameters
+        ----------
+        points : (n, 3) ndarray
+            Positions of the tip, panel mm.
+        feed : (n,) ndarray
+            Of the move to each point, mm/min; infinite for a rapid.
+        line : (n,) ndarray of int, optional
+            Lines of the text, to say where.
+        """
+        point = "move" if line is None else "line"
+        number = np.arange(len(points)) if line is None else line
+        found = [*self._depths(points), *self._places(points, feed)]
+        found += self._feeds(points, feed)
+        return tuple(
+            f"{text} ({np.count_nonzero(bad)} moves, first at {point} {number[bad.argmax()]})"
+            for bad, text in found
+            if bad.any()
+        ) + travel_findings(points, self.machine)
+
+    def _depths(self, points: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
+        z = points[:, 2]
+        lowest = f"Z reaches {z.min():.3f} mm"
+        bounds = {
+            f"below the relief's depth of {self.depth:g} mm": self.depth,
+            f"below the cutter's flutes of {self.cutter.flute_length:g} mm": (
+                self.cutter.flute_length
+            ),
+            f"through the stock of {self.stock.thickness:g} mm": self.stock.thickness,
+        }
+        for words, bound in bounds.items():
+            yield z < -bound - SLACK, f"cuts {words}: {lowest}"
+
+    def _places(self, points: Floats, feed: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
+        x, y, z = points.T
+        below = z < -SLACK
+        size = self.stock.width, self.stock.height
+        outside = (x < -SLACK) | (x > size[0] + SLACK) | (y < -SLACK) | (y > size[1] + SLACK)
+        # A move is below the face outside the stock if either of its ends is.
+        low = below & outside
+        low[1:] |= below[:-1] & outside[1:]
+        yield low, f"cuts outside the stock of {size[0]:g} x {size[1]:g} mm"
+        sideways = np.zeros(len(points), bool)
+        sideways[1:] = (np.abs(np.diff(points[:, :2], axis=0)) > SLACK).any(axis=1) & below[:-1]
+        yield np.isinf(feed) & (below | sideways), "a rapid goes below the panel's face"
+
+    def _feeds(self, points: Floats, feed: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
+        # Along X and Y the feed itself must be one the axis can follow.  A slope
+        # may ask more of Z than it can: the controller then slows the whole move.
+        step = np.abs(np.diff(points, axis=0, prepend=points[:1])) > SLACK
+        rate = np.where(step, np.asarray(self.machine.max_rate), np.inf)
+        ceiling = np.where(step[:, :2].any(axis=1), rate[:, :2].min(axis=1), rate[:, 2])
+        fast = np.isfinite(feed) & (feed > ceiling * (1 + 1e-9))
+        yield fast, f"a feed is above the machine's {self.machine.max_rate} mm/min"
+
+
+def travel_findings(points: Floats, machine: Machine) -> tuple[str, ...]:
+    """Say which axes would have to move further than the machine can.
+
+    Parameters
+    ----------
+    points : (n, 3) ndarray
+        mm, in any one coordinate system.
+    """
+    span = np.ptp(points, axis=0)
+    return tuple(
+        f"moves over {span[k]:.3f} mm of {'XYZ'[k]}, where {machine.name} has {reach:g} mm"
+        for k, reach in enumerate(machine.travel)
+        if span[k] > reach + SLACK
+    )

@@ -1,0 +1,92 @@
+"""Program: what a text of G-code makes the machine do."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.errors import InputError
+from relieffab.stock import Stock
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """The motion a program of G-code commands; arrays are read-only.
+
+    Arcs are chords here.  The first point is where the position first becomes
+    known on all axes, reached by a rapid from wherever the machine stands.
+
+    Parameters
+    ----------
+    name : str
+        For messages: a file's name, usually.
+    points : (n, 3) ndarray
+        Positions of the cutter's tip in work coordinates, mm.
+    feed : (n,) ndarray
+        Of the move that ends at each point, mm/min; infinite for a rapid.
+    line : (n,) ndarray of int
+        Number of the text's line that commands each move, from 1.
+    spindle : (n,) ndarray
+        The S value while each move is made; 0 while the spindle stands.
+    dwell : (n + 1,) ndarray
+        Seconds waited before each move, and after the last.
+    line_count : int
+        Lines of the text.
+    blind_line : int
+        Line of the first move sideways at a height not known yet; 0 if none.
+    """
+
+    name: str
+    points: Floats
+    feed: Floats
+    line: NDArray[np.int64]
+    spindle: Floats
+    dwell: Floats
+    line_count: int
+    blind_line: int = 0
+
+    def __post_init__(self) -> None:
+        count = len(self.points)
+        shapes = {"points": (count, 3), "feed": (count,), "line": (count,)}
+        shapes |= {"spindle": (count,), "dwell": (count + 1,)}
+        for name, want in shapes.items():
+            array = getattr(self, name)
+            if array.shape != want:
+                raise InputError(
+                    f"the program's {name} do not fit its moves",
+                    expected=f"shape {want}",
+                    found=f"{array.shape}",
+                    where=self.name,
+                )
+            array.flags.writeable = False
+        if not count:
+            raise InputError("the program moves nothing", where=self.name)
+        if not np.isfinite(self.points).all():
+            raise InputError("the program goes to no finite place", where=self.name)
+
+    @property
+    def rapid(self) -> NDArray[np.bool_]:
+        """Whether each move is a rapid."""
+        return np.isinf(self.feed)
+
+    @property
+    def lengths(self) -> Floats:
+        """Length of the move that ends at each point, mm; 0 for the first."""
+        steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
+        return np.concatenate([[0.0], steps])
+
+    @property
+    def cutting_length(self) -> float:
+        """Length of all moves at a feed, mm."""
+        return float(self.lengths[~self.rapid].sum())
+
+    @property
+    def bounds(self) -> Floats:
+        """Least and greatest X, Y, Z as a (2, 3) array, work coordinates, mm."""
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    def on_panel(self, stock: Stock) -> Floats:
+        """Give the points in panel coordinates, mm."""
+        return self.points + np.asarray(stock.work_zero)

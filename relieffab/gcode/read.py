@@ -1,0 +1,304 @@
+"""The text of a program read back as Grbl 1.1 would run it, apart from the writer."""
+
+import re
+from math import inf, isnan, nan
+
+import numpy as np
+
+from relieffab.errors import InputError
+from relieffab.gcode.arc import centre_from_radius, chords
+from relieffab.gcode.program import Program
+from relieffab.gcode.words import MAX_CHARACTERS, Words, check_bytes, refused, split
+
+GROUP = {
+    **dict.fromkeys(["G0", "G1", "G2", "G3", "G80"], "motion"),
+    "G4": "dwell",
+    "G17": "plane",
+    "G20": "units",
+    "G21": "units",
+    "G40": "cutter compensation",
+    "G49": "length offset",
+    "G54": "coordinates",
+    "G61": "path",
+    "G80": "motion",
+    "G90": "distance",
+    "G91": "distance",
+    "G91.1": "arc distance",
+    "G94": "feed mode",
+    **dict.fromkeys(["M0", "M1", "M2", "M30"], "stop"),
+    **dict.fromkeys(["M3", "M4", "M5"], "spindle"),
+    **dict.fromkeys(["M8", "M9"], "coolant"),
+}
+# Grbl runs these; a program that needs them goes by more than its own text.
+NOT_FOLLOWED = {
+    *("G10", "G18", "G19", "G28", "G28.1", "G30", "G30.1", "G38.2", "G38.3", "G38.4", "G38.5"),
+    *("G43.1", "G53", "G55", "G56", "G57", "G58", "G59", "G92", "G92.1", "G93"),
+}
+VALUES = frozenset("FIJKLNPRSTXYZ")
+ARC_WORDS = frozenset("IJR")
+
+_NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
+# Nearly all lines of a relief look like this, and are read without more ado.
+_PLAIN = re.compile(
+    rf"(?:G([01]))?(?:X({_NUMBER}))?(?:Y({_NUMBER}))?(?:Z({_NUMBER}))?(?:F(\d+\.?\d*))?"
+)
+
+
+def read_program(text: str, *, name: str = "program") -> Program:
+    """Interpret a program of G-code.
+
+    Takes G0-G4, G17, G20, G21, G40, G49, G54, G61, G80, G90, G91, G91.1, G94,
+    M0-M5, M8, M9, M30, F, S, T and N, in either case, with blanks and comments.
+    The program must set units and distance mode itself, and end with M2 or M30.
+
+    Parameters
+    ----------
+    text : str
+    name : str
+        For messages: the file's name, usually.
+
+    Raises
+    ------
+    InputError
+        Naming the line, and Grbl's own error where it has one.
+    """
+    check_bytes(text, name)
+    reader = _Interpreter(name)
+    lines = text.splitlines()
+    for number, raw in enumerate(lines, 1):
+        if reader.simple and (match := _PLAIN.fullmatch(raw)) and reader.plain(match, number):
+            continue
+        words = split(raw, f"{name} line {number}")
+        if words:
+            reader.block(words, number)
+    return reader.program(len(lines))
+
+
+class _Interpreter:
+    """The modal state, and the motion so far."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.number = 0
+        self.modes: dict[str, str] = {}
+        self.scale = 1.0
+        self.feed = 0.0
+        self.speed = self.turning = 0.0
+        self.at = (nan, nan, nan)
+        self.placed = self.ended = self.simple = False
+        self.blind_line = 0
+        self.points: list[tuple[float, float, float]] = []
+        self.feeds: list[float] = []
+        self.lines: list[int] = []
+        self.spindles: list[float] = []
+        self.waits: dict[int, float] = {}
+
+    @property
+    def where(self) -> str:
+        return f"{self.name} line {self.number}"
+
+    def plain(self, match: re.Match[str], number: int) -> bool:
+        """Run a line of G0 or G1 and plain axis words; say whether that was possible."""
+        motion, x, y, z, feed = match.groups()
+        rapid = (motion == "0") if motion else self.modes["motion"] == "G0"
+        rate = float(feed) if feed else self.feed
+        if (not rapid and rate == 0) or match.end() > MAX_CHARACTERS or not (x or y or z):
+            return False
+        if motion:
+            self.modes["motion"] = "G" + motion
+        self.number, self.feed = number, rate
+        at = self.at
+        target = float(x) if x else at[0], float(y) if y else at[1], float(z) if z else at[2]
+        self._record(target, inf if rapid else rate)
+        return True
+
+    def block(self, words: Words, number: int) -> None:
+        """Run one line: values, then modes, dwell and motion, in Grbl's order."""
+        self.number = number
+        if self.ended:
+            raise InputError("there is code after the program's end", where=self.where)
+        values: dict[str, float] = {}
+        commands: list[str] | None = None
+        for letter, digits, _ in words:
+            if letter in "GM":
+                commands = [letter + digits] if commands is None else [*commands, letter + digits]
+            elif letter in values:
+                raise refused(25, self.where, letter)
+            else:
+                values[letter] = float(digits)
+        modes = self._take(commands) if commands else {}
+        if "F" in values or "S" in values or not values.keys() <= {"X", "Y", "Z"}:
+            self._values(values)
+        if "spindle" in modes or "S" in values:
+            self._turn()
+        if "dwell" in modes:
+            self._wait(values)
+        if "X" in values or "Y" in values or "Z" in values or modes.get("motion") in ("G2", "G3"):
+            self._move(values)
+        elif ARC_WORDS & values.keys():
+            raise refused(36, self.where, " ".join(sorted(ARC_WORDS & values.keys())))
+        self.ended = modes.get("stop") in ("M2", "M30")
+        held = self.modes.get("motion"), self.modes.get("units"), self.modes.get("distance")
+        usual = held in (("G0", "G21", "G90"), ("G1", "G21", "G90"))
+        self.simple = usual and self.placed and not self.ended
+
+    def _take(self, commands: list[str]) -> dict[str, str]:
+        """Set the modes a line names."""
+        named: dict[str, str] = {}
+        for command in commands:
+            value = float(command[1:])
+            key = f"{command[0]}{value:g}"
+            if key in NOT_FOLLOWED:
+                raise InputError(
+                    f"{key} is not followed here: where it leads is not in the program",
+                    expected="moves in the XY plane from one work zero, in mm or inches a minute",
+                    where=self.where,
+                )
+            if key not in GROUP:
+                raise refused(23 if key[0] == "M" and value % 1 else 20, self.where, command)
+            if GROUP[key] in named:
+                raise refused(21, self.where, f"{named[GROUP[key]]} and {key}")
+            named[GROUP[key]] = key
+        self.modes.update(named)
+        if "units" in named:
+            self.scale = 25.4 if named["units"] == "G20" else 1.0
+        return named
+
+    def _values(self, values: dict[str, float]) -> None:
+        """Take feed and speed; refuse words that mean nothing in this line."""
+        unknown = values.keys() - VALUES
+        if unknown:
+            raise refused(20, self.where, " ".join(sorted(unknown)))
+        for letter in values.keys() & set("FNPST"):
+            if values[letter] < 0:
+                raise refused(4, self.where, f"{letter}{values[letter]:g}")
+        if values.get("N", 0) > 10_000_000:
+            raise refused(27, self.where, f"N{values['N']:g}")
+        unused = values.keys() & set("KL")
+        if "P" in values and self.modes.get("dwell") is None:
+            unused.add("P")
+        if unused:
+            raise refused(36, self.where, " ".join(sorted(unused)))
+        if "F" in values:
+            self.feed = values["F"] * self.scale
+        if "S" in values:
+            self.speed = values["S"]
+
+    def _turn(self) -> None:
+        on = self.modes.get("spindle") in ("M3", "M4")
+        self.turning = self.speed if on else 0.0
+
+    def _wait(self, values: dict[str, float]) -> None:
+        del self.modes["dwell"]
+        if "P" not in values:
+            raise refused(28, self.where, "G4 without P")
+        before = len(self.points)
+        self.waits[before] = self.waits.get(before, 0.0) + values["P"]
+
+    def _move(self, values: dict[str, float]) -> None:
+        """Go where X, Y and Z say, in the motion mode that holds."""
+        modes = self.modes
+        motion = modes.get("motion", "")
+        if not (motion and "units" in modes and "distance" in modes):
+            raise InputError(
+                "the program moves before it has said how",
+                expected="G0 or G1, G20 or G21, and G90 or G91 first",
+                where=self.where,
+            )
+        if motion == "G80":
+            raise refused(31, self.where, "G80")
+        if motion != "G0" and self.feed == 0:
+            raise refused(22, self.where, motion)
+        target = self._target(values)
+        if motion in ("G2", "G3"):
+            self._arc(values, target, motion == "G2")
+            return
+        if "I" in values or "J" in values or "R" in values:
+            raise refused(36, self.where, " ".join(sorted(ARC_WORDS & values.keys())))
+        if not self.placed:
+            self._place(target, motion)
+            return
+        self._record(target, inf if motion == "G0" else self.feed)
+
+    def _target(self, values: dict[str, float]) -> tuple[float, float, float]:
+        x, y, z = self.at
+        scale = self.scale
+        if self.modes["distance"] == "G90":
+            return (
+                values["X"] * scale if "X" in values else x,
+                values["Y"] * scale if "Y" in values else y,
+                values["Z"] * scale if "Z" in values else z,
+            )
+        step = [values.get(axis, 0.0) * scale for axis in "XYZ"]
+        if not self.placed:
+            raise InputError("a relative move from a place not known", where=self.where)
+        return x + step[0], y + step[1], z + step[2]
+
+    def _place(self, target: tuple[float, float, float], motion: str) -> None:
+        """Approach from wherever the machine stands, until all axes are known."""
+        if motion != "G0":
+            raise InputError(
+                "a cutting move from a place not known",
+                expected="X, Y and Z reached by rapids first",
+                where=self.where,
+            )
+        sideways = target[:2] != self.at[:2] and not all(
+            isnan(a) and isnan(b) for a, b in zip(target[:2], self.at[:2], strict=True)
+        )
+        if sideways and isnan(self.at[2]) and not self.blind_line:
+            self.blind_line = self.number
+        self.placed = not any(map(isnan, target))
+        self.at = target
+        if self.placed:
+            self._record(target, inf)
+
+    def _record(self, target: tuple[float, float, float], feed: float) -> None:
+        self.at = target
+        self.points.append(target)
+        self.feeds.append(feed)
+        self.lines.append(self.number)
+        self.spindles.append(self.turning)
+
+    def _arc(
+        self, values: dict[str, float], target: tuple[float, float, float], clockwise: bool
+    ) -> None:
+        if not self.placed:
+            self._place(target, "an arc")
+        if not values.keys() & {"X", "Y", "Z"}:
+            raise refused(26, self.where, "an arc without axis words")
+        if not values.keys() & {"X", "Y"}:
+            raise refused(32, self.where, "an arc along Z alone")
+        if "R" in values:
+            if values.keys() & {"I", "J"}:
+                raise refused(36, self.where, "I or J beside R")
+            radius = values["R"] * self.scale
+            offset = centre_from_radius(self.at, target, radius, clockwise, self.where)
+        elif values.keys() & {"I", "J"}:
+            offset = values.get("I", 0.0) * self.scale, values.get("J", 0.0) * self.scale
+        else:
+            raise refused(35, self.where, "an arc without I, J or R")
+        for point in chords(self.at, target, offset, clockwise, self.where):
+            self._record(point, self.feed)
+
+    def program(self, line_count: int) -> Program:
+        """Close the program."""
+        if not self.ended:
+            raise InputError(
+                "the program has no end",
+                expected="M30 or M2 on its last line",
+                where=self.name,
+                hint="the file may be cut short",
+            )
+        dwell = np.zeros(len(self.points) + 1)
+        for before, seconds in self.waits.items():
+            dwell[before] = seconds
+        return Program(
+            self.name,
+            np.array(self.points, dtype=float).reshape(-1, 3),
+            np.array(self.feeds, dtype=float),
+            np.array(self.lines, dtype=np.int64),
+            np.array(self.spindles, dtype=float),
+            dwell,
+            line_count,
+            self.blind_line,
+        )

@@ -1,0 +1,1 @@
+"""URL handlers for pyserial, which looks here for `protocol_<scheme>` modules."""

@@ -1,0 +1,183 @@
+"""What Grbl says, read: bytes to lines, lines to messages.
+
+Only the exact lines `ok` and `error:N` acknowledge anything.  Everything else that may
+look like it (`>G21:ok` of a startup block, `[MSG:ok]`, a garbled `o?k`) is told apart here.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Point = tuple[float, float, float]
+
+LONGEST_LINE = 4096
+"""Bytes without a line end beyond which the input is noise, not a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Acknowledgement:
+    """`ok` (code 0) or `error:N`."""
+
+    code: int
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """`ALARM:N`."""
+
+    code: int
+
+
+@dataclass(frozen=True, slots=True)
+class Banner:
+    """The greeting after every start or reset."""
+
+    version: str
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One line `$number=value` of the `$$` dump."""
+
+    number: int
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """`[TAG:text]`: an answer to a question, or a message."""
+
+    tag: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """One status report; what it leaves out is None.
+
+    Parameters
+    ----------
+    state : str
+        Idle, Run, Hold, Jog, Alarm, Door, Check, Home or Sleep.
+    substate : int or None
+        Behind the colon: Hold:0 has stopped, Hold:1 is still slowing down.
+    machine, work, offset : tuple of 3 float or None
+        MPos, WPos and WCO, mm.
+    blocks_free, bytes_free : int or None
+        Room in the planner and in the receive buffer.
+    feed, speed : float or None
+        mm/min and rpm.
+    """
+
+    state: str
+    substate: int | None = None
+    machine: Point | None = None
+    work: Point | None = None
+    offset: Point | None = None
+    blocks_free: int | None = None
+    bytes_free: int | None = None
+    feed: float | None = None
+    speed: float | None = None
+
+    @property
+    def stopped(self) -> bool:
+        """True where the axes stand still and will stay so."""
+        held = self.state in ("Hold", "Door") and self.substate == 0
+        return held or self.state in ("Idle", "Alarm", "Check", "Sleep")
+
+
+@dataclass(frozen=True, slots=True)
+class Other:
+    """Anything else: startup blocks, noise."""
+
+    text: str
+
+
+Message = Acknowledgement | Alarm | Banner | Setting | Note | Status | Other
+
+OK = Acknowledgement(0)
+_BANNER = re.compile(r"(?:Grbl|GrblHAL) (\S+) \[")
+_NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
+_READERS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], Message]], ...] = (
+    (re.compile(r"error:(\d{1,3})$"), lambda match: Acknowledgement(int(match[1]))),
+    (re.compile(r"ALARM:(\d{1,3})$"), lambda match: Alarm(int(match[1]))),
+    (re.compile(rf"\$(\d+)=({_NUMBER})"), lambda match: Setting(int(match[1]), float(match[2]))),
+    (re.compile(r"\[([^:\]]+):(.*)\]$"), lambda match: Note(match[1], match[2])),
+)
+
+
+class LineSplitter:
+    """Lines out of a stream of bytes that comes in any pieces."""
+
+    def __init__(self) -> None:
+        self._rest = b""
+
+    def feed(self, data: bytes) -> list[str]:
+        """Take bytes, give the lines completed by them, without their line ends."""
+        if b"\n" not in data:
+            self._rest = (self._rest + data)[-LONGEST_LINE:]
+            return []
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        return [line.rstrip(b"\r").decode("ascii", "replace") for line in lines]
+
+
+def parse(line: str) -> Message:
+    r"""Read one line of Grbl's.
+
+    Examples
+    --------
+    >>> parse("ok"), parse("error:22")
+    (Acknowledgement(code=0), Acknowledgement(code=22))
+    >>> parse(">G21:ok")
+    Other(text='>G21:ok')
+    >>> parse("<Hold:1|MPos:1.000,2.000,-0.500|FS:300,0>").substate
+    1
+    """
+    if line == "ok":
+        return OK
+    if line.startswith("<"):
+        return _status(line)
+    for pattern, make in _READERS:
+        if match := pattern.match(line):
+            return make(match)
+    banner = _BANNER.search(line)
+    return Banner(banner[1]) if banner else Other(line)
+
+
+def _status(line: str) -> Message:
+    """Read `<State|Key:values|...>`; a damaged report says nothing at all."""
+    if not line.endswith(">"):
+        return Other(line)
+    head, *fields = line[1:-1].split("|")
+    state, _, substate = head.partition(":")
+    values = dict(field.partition(":")[::2] for field in fields)
+    try:
+        feed, speed = _floats(values.get("FS") or values["F"] + ",0", 2)
+        blocks, free = _floats(values["Bf"], 2) if "Bf" in values else (None, None)
+        return Status(
+            state,
+            int(substate) if substate else None,
+            machine=_point(values.get("MPos")),
+            work=_point(values.get("WPos")),
+            offset=_point(values.get("WCO")),
+            blocks_free=None if blocks is None else int(blocks),
+            bytes_free=None if free is None else int(free),
+            feed=feed,
+            speed=speed,
+        )
+    except (ValueError, KeyError):
+        return Other(line)
+
+
+def _floats(text: str, count: int) -> tuple[float, ...]:
+    values = tuple(float(part) for part in text.split(","))
+    if len(values) < count:
+        raise ValueError(text)
+    return values[:count]
+
+
+def _point(text: str | None) -> Point | None:
+    if text is None:
+        return None
+    x, y, z = _floats(text, 3)
+    return x, y, z

@@ -1,0 +1,155 @@
+"""Serial ports: the only module that imports pyserial.
+
+What the operating system or pyserial complain of becomes a MachineError that says what to
+do next.
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import serial
+from serial.tools import list_ports
+
+from relieffab.errors import InputError, MachineError
+
+BAUD = 115200
+TICK = 0.05
+"""Seconds a read waits for the first byte, so that the sender can look at the clock."""
+
+_HANDLERS = "relieffab.grbl.handlers"
+
+
+class Port(Protocol):
+    """What the sender needs of a port."""
+
+    name: str
+
+    def read(self) -> bytes:
+        """Give what has come, after a short wait at most; may be empty."""
+
+    def write(self, data: bytes) -> None:
+        """Send all of it."""
+
+    def now(self) -> float:
+        """Seconds on the clock of the machine behind the port."""
+
+    def close(self) -> None:
+        """Let go."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A port of this computer.
+
+    Parameters
+    ----------
+    device, description : str
+    """
+
+    device: str
+    description: str
+
+
+class SerialPort:
+    """A port that pyserial has opened.
+
+    Parameters
+    ----------
+    name : str
+        The device or URL.
+    device : serial.SerialBase
+        Anything with read, write, in_waiting, close; a `now` of its own replaces the
+        computer's clock.
+    """
+
+    def __init__(self, name: str, device: serial.SerialBase) -> None:
+        self.name = name
+        self.device = device
+        self.now: Callable[[], float] = getattr(device, "now", time.monotonic)
+
+    def read(self) -> bytes:
+        """Give what has come, waiting up to `TICK` for the first byte."""
+        try:
+            data = self.device.read(1)
+            waiting = self.device.in_waiting if data else 0
+            return bytes(data + self.device.read(waiting) if waiting else data)
+        except OSError as error:  # serial.SerialException is one
+            raise _lost(f"reading from {self.name} failed", error) from error
+
+    def write(self, data: bytes) -> None:
+        """Send all of it."""
+        try:
+            self.device.write(data)
+        except OSError as error:
+            raise _lost(f"writing to {self.name} failed", error) from error
+
+    def close(self) -> None:
+        """Let go of the port."""
+        try:
+            self.device.close()
+        except OSError as error:
+            raise _lost(f"closing {self.name} failed", error) from error
+
+    def __enter__(self) -> "SerialPort":
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        self.close()
+
+
+def _lost(message: str, error: OSError) -> MachineError:
+    return MachineError(
+        message,
+        found=str(error),
+        hint="check the cable; the machine goes on with what it has: watch the spindle",
+    )
+
+
+def open_port(url: str, *, baud: int = BAUD) -> SerialPort:
+    """Open a device (``/dev/ttyUSB0``, ``COM3``) or a URL (``sim://?speed=max``).
+
+    Parameters
+    ----------
+    url : str
+    baud : int
+        Bits a second.
+
+    Raises
+    ------
+    MachineError
+        If the port is not there, is in use, or may not be opened.
+    InputError
+        If the URL cannot be read.
+    """
+    if _HANDLERS not in serial.protocol_handler_packages:
+        serial.protocol_handler_packages.append(_HANDLERS)
+    try:
+        device = serial.serial_for_url(
+            url, baudrate=baud, timeout=TICK, write_timeout=5.0, exclusive=True
+        )
+    except ValueError as error:
+        raise InputError("this is not a port", found=str(error), where=url) from error
+    except OSError as error:
+        raise MachineError(
+            f"the port {url} cannot be opened", found=str(error), hint=_why_not(error)
+        ) from error
+    return SerialPort(url, device)
+
+
+def _why_not(error: OSError) -> str:
+    """Say what to do about a port that does not open."""
+    text = str(error).lower()
+    if "permission" in text or "access is denied" in text:
+        return "close other programs that use the port; on Linux join the group dialout"
+    if "busy" in text or "exclusively lock" in text:
+        return "close the other program that uses the port"
+    names = ", ".join(found.device for found in ports())
+    return f"ports found: {names}" if names else "no serial port found: plug the machine in"
+
+
+def ports() -> list[Found]:
+    """List the serial ports of this computer, USB adapters first."""
+    found = sorted(list_ports.comports(), key=lambda port: (port.vid is None, port.device))
+    return [Found(port.device, port.description or "") for port in found]

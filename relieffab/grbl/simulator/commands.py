@@ -1,0 +1,120 @@
+"""The $ commands of the simulated Grbl."""
+
+import re
+from typing import Protocol
+
+from relieffab.grbl.simulator import reports
+from relieffab.grbl.simulator.interpreter import Interpreter
+from relieffab.grbl.simulator.planner import Planner
+from relieffab.grbl.simulator.settings import Settings
+from relieffab.grbl.simulator.wire import Wire
+from relieffab.grbl.simulator.words import Refused, read_words
+
+EEPROM_SECONDS = 0.1
+"""How long a stored setting keeps the controller deaf: some 30 bytes of 3.4 ms."""
+
+_SETTING = re.compile(r"\$(\d+)=(-?[\d.]+)")
+_STARTUP = re.compile(r"\$N([01])=(.*)")
+
+
+class Host(Protocol):
+    """What the commands ask of the machine."""
+
+    settings: Settings
+    interpreter: Interpreter
+    planner: Planner
+    wire: Wire
+    state: str
+    startup: list[str]
+
+    def say(self, text: str) -> None:
+        """Print a line."""
+
+    def deafen(self, seconds: float) -> None:
+        """Lose bytes while the EEPROM is written."""
+
+    def home(self) -> None:
+        """Start a homing cycle."""
+
+    def check(self) -> None:
+        """Switch the check mode."""
+
+
+def run_command(machine: Host, line: str) -> None:
+    """Run a `$` line, or refuse it."""
+    if line in _ALWAYS:
+        _ALWAYS[line](machine)
+        return
+    if machine.state == "Check" and line == "$C":
+        machine.check()
+        return
+    if machine.state not in ("Idle", "Alarm"):
+        raise Refused(8)
+    if line in _AT_REST:
+        _AT_REST[line](machine)
+    elif setting := _SETTING.fullmatch(line):
+        machine.settings.change(int(setting[1]), float(setting[2]))
+        machine.deafen(EEPROM_SECONDS)
+    elif (block := _STARTUP.fullmatch(line)) and machine.state == "Idle":
+        read_words(block[2])
+        machine.startup[int(block[1])] = block[2]
+        machine.deafen(EEPROM_SECONDS)
+    else:
+        raise Refused(3)
+
+
+def _help(machine: Host) -> None:
+    machine.say(reports.HELP)
+
+
+def _modal(machine: Host) -> None:
+    machine.say(reports.modal(machine.interpreter))
+
+
+def _unlock(machine: Host) -> None:
+    if machine.state == "Alarm":
+        machine.say("[MSG:Caution: Unlocked]")
+        machine.state = "Idle"
+
+
+def _settings(machine: Host) -> None:
+    for line in machine.settings.lines():
+        machine.say(line)
+
+
+def _offsets(machine: Host) -> None:
+    for line in reports.offsets(machine.interpreter):
+        machine.say(line)
+
+
+def _info(machine: Host) -> None:
+    for line in reports.build_info(machine.wire, machine.planner.size):
+        machine.say(line)
+
+
+def _startup(machine: Host) -> None:
+    for number, block in enumerate(machine.startup):
+        machine.say(f"$N{number}={block}")
+
+
+def _home(machine: Host) -> None:
+    if not machine.settings[22]:
+        raise Refused(5)
+    machine.home()
+
+
+def _check(machine: Host) -> None:
+    if machine.state != "Idle":
+        raise Refused(8)
+    machine.check()
+
+
+_ALWAYS = {"$": _help, "$G": _modal, "$X": _unlock}
+_AT_REST = {
+    "$$": _settings,
+    "$#": _offsets,
+    "$I": _info,
+    "$N": _startup,
+    "$H": _home,
+    "$C": _check,
+}

@@ -1,0 +1,306 @@
+"""The simulated controller: a virtual clock, and what happens when.
+
+Nothing happens by itself: `step` goes to the next event (a byte arrives, a line has been
+parsed, a move ends) or to the given time, whichever comes first.  So simulated seconds cost
+only what their events cost, and every run of the same bytes at the same times is the same.
+"""
+
+import math
+from array import array
+
+from relieffab.grbl.simulator import reports
+from relieffab.grbl.simulator.interpreter import Interpreter, Move
+from relieffab.grbl.simulator.planner import Planner, Point
+from relieffab.grbl.simulator.processor import Processor
+from relieffab.grbl.simulator.realtime import Overrides, act
+from relieffab.grbl.simulator.settings import Settings
+from relieffab.grbl.simulator.wire import Wire
+
+HOMING_SECONDS = 8.0
+_CRITICAL = (1, 2)
+
+
+class SimulatedGrbl:
+    """A Grbl 1.1h with a machine behind it.
+
+    Parameters
+    ----------
+    settings : dict, optional
+        `$number` -> value over the defaults of simulator/settings.py.
+    rx_buffer, planner_blocks : int
+        Bytes of the receive buffer, moves of the look-ahead.
+    line_rate : float
+        Lines the processor reads a second when nothing else holds it up.
+    baud : float
+    boot : float
+        Seconds from opening the port to the banner.
+    blank : bool
+        Start with a blank EEPROM, which prints a page of noise before the banner.
+
+    Attributes
+    ----------
+    now : float
+        Simulated seconds since the port was opened.
+    state : str
+        Boot, Idle, Run, Hold, Door, Home, Alarm, Check.
+    spindle : float
+        rpm; 0 is off.
+    """
+
+    def __init__(
+        self,
+        *,
+        settings: dict[int, float] | None = None,
+        rx_buffer: int = 128,
+        planner_blocks: int = 15,
+        line_rate: float = 400.0,
+        baud: float = 115200.0,
+        boot: float = 1.6,
+        blank: bool = False,
+    ) -> None:
+        self.settings = Settings(settings)
+        self.interpreter = Interpreter(self.settings)
+        self.planner = Planner(self.settings, planner_blocks)
+        self.wire = Wire(baud, rx_buffer)
+        self.overrides = Overrides()
+        self.startup = ["", ""]
+        self.now = 0.0
+        self.state = "Boot"
+        self.spindle = 0.0
+        self._path = array("d")
+        self._reports = reports.StatusReports()
+        self._processor = Processor(self, 1.0 / line_rate)
+        self._booted = boot
+        self._blank = blank
+        self._dead = self._limited = False
+        self.wire.deaf_until = boot
+
+    @property
+    def path(self) -> list[Point]:
+        """Machine positions (mm) at the end of every move made, and at every stop."""
+        values = iter(self._path)
+        return list(zip(values, values, values, strict=True))
+
+    @property
+    def lost(self) -> int:
+        """Bytes that were sent and never read."""
+        return self.wire.lost
+
+    @property
+    def busy(self) -> bool:
+        """True while anything is on the wire, being read or being moved."""
+        return self.next_event() < math.inf
+
+    def write(self, data: bytes) -> None:
+        """Put bytes on the wire, now."""
+        self.wire.push(data, self.now)
+
+    def say(self, text: str) -> None:
+        """Print a line."""
+        self.wire.say(text, self.now)
+
+    def next_event(self) -> float:
+        """When something happens next, as far as the bytes known now decide."""
+        event = min(self.planner.end, self._booted)
+        if self.wire.urgent:
+            event = min(event, self.wire.urgent[0][0])
+        if self._processor.ready > self.now:
+            return min(event, self._processor.ready)
+        if self._processor.wants_a_line and not self._dead:
+            return min(event, self.wire.newline_at())
+        return event
+
+    def step(self, until: float) -> None:
+        """Go on to the next event, or to `until` if that comes first."""
+        event = self.next_event()
+        if event > until:
+            self.now = max(self.now, until)
+            self._deliver()
+            return
+        self.now = max(self.now, event)
+        self._deliver()
+        if self._booted <= self.now:
+            self._boot()
+        if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
+            _, byte = self.wire.urgent.popleft()
+            if self.state != "Boot":
+                act(self, byte)
+        if self.planner.end <= self.now:
+            self._move_ended()
+        self._work()
+
+    def run(self, until: float) -> None:
+        """Go on to `until`, through all events on the way."""
+        while self.now < until:
+            self.step(until)
+
+    # -- what real-time bytes and $ commands ask for ------------------------------------
+
+    def report(self) -> None:
+        """Answer `?`; after a limit was hit, nothing is answered until a reset."""
+        if self._dead:
+            return
+        position, speed = self.planner.motion(self.now)
+        self.say(
+            self._reports.line(
+                self._state_name(),
+                position,
+                offset=self.interpreter.coordinates.work_offset,
+                room=(self.planner.size - len(self.planner.blocks), self.wire.free),
+                pace=(speed * 60.0, self.spindle),
+                overrides=self.overrides.values,
+                mask=int(self.settings[10]),
+            )
+        )
+
+    def hold(self, state: str = "Hold") -> None:
+        """Brake to a stop and stay there until resumed."""
+        if self.state not in ("Idle", "Run"):
+            return
+        self.state = state
+        self.planner.hold(self.now)
+        if state == "Door":
+            self.spindle = 0.0
+
+    def resume(self) -> None:
+        """Go on after a hold, a pause or a closed door."""
+        if self.state in ("Hold", "Door") and not self.planner.running:
+            if self.state == "Door" and self.interpreter.spindle != 5:
+                self.spindle = self.interpreter.speed
+            self.planner.resume(self.now)
+            self.state = "Run" if self.planner.running else "Idle"
+            self._work()
+
+    def reset(self) -> None:
+        """Ctrl-X: stop at once; in motion that loses steps and locks the machine."""
+        moving = self.planner.running or self.state == "Home"
+        if moving and self.state != "Alarm":
+            self._alarm(6 if self.state == "Home" else 3)
+        self._restart()
+
+    def deafen(self, seconds: float) -> None:
+        """Lose bytes while the EEPROM is written."""
+        self.wire.deaf_until = self.now + seconds
+        self._processor.ready = self.now + seconds
+
+    def home(self) -> None:
+        """Run to the switches; it always finds them."""
+        self.state = "Home"
+        self._processor.ready = self.now + HOMING_SECONDS
+
+    def check(self) -> None:
+        """Switch the check mode on, or off with a reset."""
+        if self.state == "Check":
+            self.say("[MSG:Disabled]")
+            self.state = "Idle"
+            self._restart()
+        else:
+            self.say("[MSG:Enabled]")
+            self.state = "Check"
+
+    # -- what the main program asks for ---------------------------------------------------
+
+    def start(self) -> None:
+        """Set off with the moves that wait."""
+        if self.state == "Idle" and self.planner.blocks:
+            self.state = "Run"
+            self.planner.start(self.now)
+
+    def outside(self, move: Move) -> bool:
+        """Whether a soft limit forbids a move."""
+        return bool(self.settings[20]) and not all(
+            -travel <= value <= 0.0
+            for travel, value in zip(self.settings.travel, move.target, strict=True)
+        )
+
+    def limit_reached(self) -> None:
+        """Brake, then lock up and be silent until reset."""
+        if self.planner.running:
+            self._limited = True
+            self.hold()
+        else:
+            self._alarm(2)
+
+    def homed(self) -> None:
+        """Stand off the switches, position known."""
+        pull = self.settings[27]
+        self.planner.set_position((-pull, -pull, -pull))
+        self.interpreter.coordinates.position = [-pull, -pull, -pull]
+        self.state = "Idle"
+
+    def offset_changed(self) -> None:
+        """Have the next status report name the offset."""
+        self._reports.offset_changed()
+
+    # -- within ---------------------------------------------------------------------------
+
+    def _work(self) -> None:
+        if not self._dead and self.state not in ("Boot", "Hold", "Door"):
+            self._processor.work()
+
+    def _deliver(self) -> None:
+        idle = self._processor.ready <= self.now and self._processor.wants_a_line
+        self.wire.deliver(self.now, draining=idle and not self._dead)
+
+    def _boot(self) -> None:
+        self._booted = math.inf
+        if self._blank:
+            self.say("error:7")
+            for line in self.settings.lines():
+                self.say(line)
+        self.state = "Alarm" if self.settings[22] else "Idle"
+        self._greet()
+        if self._blank:
+            self.say(">:error:7")
+            self.say(">:error:7")
+
+    def _restart(self) -> None:
+        self._dead = self._limited = False
+        position = self.planner.motion(self.now)[0]
+        if self.planner.running or self.planner.holding:
+            self._path.extend(position)
+        self.planner.set_position(position)
+        self.interpreter.reset()
+        self.interpreter.coordinates.position = list(position)
+        self.overrides = Overrides()
+        self.planner.override(1.0, 1.0, self.now)
+        self.spindle = 0.0
+        self.wire.clear()
+        self._processor.clear()
+        self.state = "Alarm" if self.state == "Alarm" else "Idle"
+        self._greet()
+
+    def _greet(self) -> None:
+        self.say("")
+        self.say(reports.BANNER)
+        if self.state == "Alarm":
+            self.say(reports.LOCKED)
+            return
+        for block in self.startup:
+            if block:
+                self._processor.load(self.interpreter.run(block))
+                self.say(f">{block}:ok")
+
+    def _move_ended(self) -> None:
+        reached = self.planner.finish(self.now)
+        self._path.extend(self.planner.position if reached is None else reached)
+        if self._limited and not self.planner.running:
+            self._alarm(2)
+        elif self.state == "Run" and not self.planner.running:
+            self.state = "Idle"
+
+    def _alarm(self, code: int) -> None:
+        """Lock up; after a limit the controller is silent until it is reset."""
+        self.state = "Alarm"
+        self.spindle = 0.0
+        self.say(f"ALARM:{code}")
+        if code in _CRITICAL:
+            self.say("[MSG:Reset to continue]")
+            position = self.planner.motion(self.now)[0]
+            self.planner.set_position(position)
+            self._dead = True
+
+    def _state_name(self) -> str:
+        if self.state in ("Hold", "Door"):
+            return f"{self.state}:{1 if self.planner.running else 0}"
+        return self.state

@@ -1,0 +1,77 @@
+"""The $ settings, with their defaults for a desktop router of the 3018 class."""
+
+from relieffab.grbl.simulator.words import Refused
+
+Point = tuple[float, float, float]
+
+DEFAULTS: dict[int, float] = {
+    0: 10, 1: 25, 2: 0, 3: 0, 4: 0, 5: 0, 6: 0, 10: 3, 11: 0.010, 12: 0.002, 13: 0,
+    20: 0, 21: 0, 22: 0, 23: 0, 24: 25, 25: 500, 26: 250, 27: 1, 30: 10000, 31: 0, 32: 0,
+    100: 800, 101: 800, 102: 800, 110: 1600, 111: 1600, 112: 800,
+    120: 30, 121: 30, 122: 30, 130: 263, 131: 157, 132: 34,
+}  # fmt: skip
+_DECIMALS = {11, 12, 24, 25, 27, *range(100, 133)}
+
+
+class Settings:
+    """Numbered values, checked as Grbl does, and the machine's figures read from them.
+
+    Parameters
+    ----------
+    changes : dict, optional
+        Number -> value, over the defaults.
+
+    Attributes
+    ----------
+    steps : tuple of 3 float
+        Steps per mm.
+    max_rate, acceleration : tuple of 3 float
+        mm/s and mm/s².
+    travel : tuple of 3 float
+        mm.
+    junction_deviation, arc_tolerance : float
+        mm.
+    """
+
+    def __init__(self, changes: dict[int, float] | None = None) -> None:
+        self.values = dict(DEFAULTS)
+        for number, value in (changes or {}).items():
+            self.change(number, value)
+        self._read()
+
+    def change(self, number: int, value: float) -> None:
+        """Set `$number=value`, or refuse as Grbl would."""
+        if number not in self.values:
+            raise Refused(3)
+        if value < 0:
+            raise Refused(4)
+        if number == 0 and value < 3:
+            raise Refused(6)
+        if number == 20 and value and not self.values[22]:
+            raise Refused(10)
+        self.values[number] = value
+        if number == 22 and not value:
+            self.values[20] = 0
+        self._read()
+
+    def __getitem__(self, number: int) -> float:
+        return self.values[number]
+
+    def lines(self) -> list[str]:
+        """List the dump that `$$` prints."""
+        return [
+            f"${number}={value:.3f}" if number in _DECIMALS else f"${number}={int(value)}"
+            for number, value in sorted(self.values.items())
+        ]
+
+    def _read(self) -> None:
+        self.steps = self._axes(100)
+        x, y, z = self._axes(110)
+        self.max_rate = (x / 60.0, y / 60.0, z / 60.0)
+        self.acceleration = self._axes(120)
+        self.travel = self._axes(130)
+        self.junction_deviation = self.values[11]
+        self.arc_tolerance = self.values[12]
+
+    def _axes(self, first: int) -> Point:
+        return self.values[first], self.values[first + 1], self.values[first + 2]

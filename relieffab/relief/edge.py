@@ -1,0 +1,75 @@
+"""The figure's edge and its hollows: walls with a draft, nothing narrower than a cutter's tip."""
+
+from math import radians, tan
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+def inward_distance(mask: Bools) -> Floats:
+    """Distance of nodes to the figure's edge, positive inside, in pixels.
+
+    The mask's staircase is smoothed away, so that the edge runs between nodes.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+    """
+    padded = np.pad(mask, 1)
+    inside = ndimage.distance_transform_edt(padded)
+    outside = ndimage.distance_transform_edt(~padded)
+    signed = np.where(padded, inside - 0.5, 0.5 - outside)
+    smooth = ndimage.gaussian_filter(signed, 2.0)
+    return (smooth[:-1, :-1] + smooth[:-1, 1:] + smooth[1:, :-1] + smooth[1:, 1:]) / 4
+
+
+def wall(mask: Bools, pitch: float, angle: float) -> Floats:
+    """Lowest heights that leave a drafted wall at the figure's edge.
+
+    Parameters
+    ----------
+    mask : (rows, cols) ndarray of bool
+    pitch : float
+        mm.
+    angle : float
+        Of the wall against the panel's face, degrees.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        mm, 0 at the edge and outside.
+    """
+    return -tan(radians(angle)) * pitch * np.maximum(inward_distance(mask), 0.0)
+
+
+def fill(heights: Floats, pitch: float, radius: float) -> Floats:
+    """Fill what a ball of some radius, rolled over the surface, does not reach.
+
+    Parameters
+    ----------
+    heights : (rows + 1, cols + 1) ndarray
+        mm.
+    pitch : float
+        mm.
+    radius : float
+        Of the ball, mm.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        The morphological closing: nowhere lower, and nowhere above what surrounds it.
+    """
+    reach = int(radius / pitch)
+    if reach == 0:
+        return heights
+    i, j = np.mgrid[-reach : reach + 1, -reach : reach + 1] * pitch
+    under = radius**2 - i**2 - j**2
+    ball = np.sqrt(np.maximum(under, 0.0)) - radius
+    padded = np.pad(heights, 2 * reach, mode="edge")
+    lifted = ndimage.grey_dilation(padded, footprint=under >= 0, structure=ball)
+    closed = ndimage.grey_erosion(lifted, footprint=under >= 0, structure=ball)
+    return np.maximum(closed[2 * reach : -2 * reach, 2 * reach : -2 * reach], heights)

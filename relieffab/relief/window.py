@@ -1,0 +1,79 @@
+"""The part of a grid that holds the figure."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.grid import Grid
+from relieffab.layers.model import Layers
+
+Floats = NDArray[np.float64]
+
+BORDER = 3  # pixels of background kept round the figure
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a grid, which may reach beyond it.
+
+    Parameters
+    ----------
+    top, left, rows, cols : int
+        In pixels of the whole grid.
+    """
+
+    top: int
+    left: int
+    rows: int
+    cols: int
+
+    def take(self, whole: NDArray[Any], *, nodes: bool = True) -> NDArray[Any]:
+        """Cut the window out, with zeros beyond the grid."""
+        more = int(nodes)
+        out = np.zeros((self.rows + more, self.cols + more, *whole.shape[2:]), whole.dtype)
+        mine, theirs = self._overlap(whole.shape, more)
+        out[mine] = whole[theirs]
+        return out
+
+    def put(self, part: Floats, shape: tuple[int, int]) -> Floats:
+        """Lay node values back into zeros of the whole grid's shape."""
+        out = np.zeros(shape)
+        mine, theirs = self._overlap(shape, 1)
+        out[theirs] = part[mine]
+        return out
+
+    def _overlap(
+        self, shape: tuple[int, ...], more: int
+    ) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+        mine, theirs = [], []
+        for start, size, whole in zip(
+            (self.top, self.left), (self.rows + more, self.cols + more), shape[:2], strict=True
+        ):
+            low, high = max(start, 0), min(start + size, whole)
+            theirs.append(slice(low, high))
+            mine.append(slice(low - start, high - start))
+        return (mine[0], mine[1]), (theirs[0], theirs[1])
+
+
+def cropped(layers: Layers) -> tuple[Layers, Window]:
+    """Cut out the figure with a border of background."""
+    rows, cols = np.nonzero(layers.mask)
+    top, left = int(rows.min()) - BORDER, int(cols.min()) - BORDER
+    window = Window(
+        top, left, int(rows.max()) + 1 + BORDER - top, int(cols.max()) + 1 + BORDER - left
+    )
+    mask = window.take(layers.mask, nodes=False)
+    normals = window.take(layers.normals, nodes=False)
+    normals[~mask] = (0.0, 0.0, 1.0)
+    figure = Layers(
+        grid=Grid(window.rows, window.cols, layers.pitch, layers.grid.to_xy(top, left)),
+        depth=window.take(layers.depth, nodes=False),
+        normals=normals,
+        mask=mask,
+        lights=layers.lights,
+        shading=np.stack([window.take(image, nodes=False) for image in layers.shading]),
+        lines=window.take(layers.lines, nodes=False),
+    )
+    return figure, window

@@ -1,0 +1,46 @@
+"""The limits fire for what is beyond them and are silent at them."""
+
+import numpy as np
+
+from relieffab.cutter import Cutter
+from relieffab.gcode.limits import Limits, travel_findings
+from relieffab.machine import Machine
+from relieffab.stock import Stock
+
+MACHINE = Machine(
+    "mill", "", (100.0, 80.0, 20.0), (1000.0, 900.0, 300.0), (30.0,) * 3, (0.0, 1e4), 1e3
+)
+FLAT = Cutter("flat", "flat", 2.0, 6.0, 1.0, 800.0, 300.0, 8000.0)
+LIMITS = Limits(4.0, FLAT, Stock(100.0, 80.0, 10.0), MACHINE)
+
+
+def findings(points, feed, line=None):
+    return LIMITS.findings(np.array(points, float), np.array(feed, float), line)
+
+
+def test_motion_at_the_limits_is_fine():
+    corners = [[0, 0, 16], [0, 0, -4], [100, 0, -4], [100, 80, -4], [100, 80, 16]]
+    assert findings(corners, [np.inf, 300, 1000, 900, np.inf]) == ()
+
+
+def test_a_slope_may_ask_more_of_z_than_it_can():
+    assert findings([[0, 0, 1], [1, 0, -3]], [np.inf, 1000]) == ()
+
+
+def test_the_first_move_and_the_number_of_moves_are_told():
+    line = np.array([3, 8, 9])
+    (text,) = findings([[1, 1, 5], [1, 1, -4.01], [2, 1, -4.01]], [np.inf, 100, 100], line)
+    assert "Z reaches -4.010 mm" in text
+    assert "(2 moves, first at line 8)" in text
+
+
+def test_leaving_the_stock_below_its_face():
+    (text,) = findings([[50, 1, 5], [99, 1, -1], [101, 1, 5]], [np.inf, 100, 100])[:1]
+    assert "outside the stock" in text
+    assert findings([[50, 1, 5], [99, 1, 0], [100, 1, 5]], [np.inf, 100, 100]) == ()
+
+
+def test_travel():
+    assert travel_findings(np.array([[0, 0, -5], [100, 80, 15]]), MACHINE) == ()
+    (text,) = travel_findings(np.array([[0, 0, -5], [100, 80, 15.01]]), MACHINE)
+    assert "20.010 mm of Z" in text
