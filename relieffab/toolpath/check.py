@@ -1,0 +1,89 @@
+"""What cannot be carved is refused before anything is planned."""
+
+from collections.abc import Sequence
+
+from relieffab.cutter import Cutter
+from relieffab.errors import InputError
+from relieffab.machine import Machine
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+
+
+def check(
+    relief: Relief, machine: Machine, cutters: Sequence[Cutter], stock: Stock, stepover: float
+) -> None:
+    """Refuse a job that these cutters, this machine or this stock cannot do.
+
+    Raises
+    ------
+    InputError
+        Saying what does not fit, and what would.
+    """
+    deepest = -float(relief.heights.min())
+    if deepest < 1e-6:
+        raise InputError(
+            "there is nothing to cut: the relief is flat",
+            hint="another view, or a larger depth",
+        )
+    _check_stock(relief, stock, deepest)
+    _check_travel(machine, stock, deepest)
+    for cutter in cutters:
+        _check_cutter(cutter, stock, deepest)
+    check_stepover(stepover, cutters[1])
+
+
+def check_stepover(stepover: float, cutter: Cutter) -> None:
+    """Refuse rows that do not move on, or that leave strips standing."""
+    width = cutter.diameter if cutter.shape == "vee" else 2 * cutter.arc_end
+    if not 0 < stepover <= width:
+        raise InputError(
+            f"the stepover cannot be {stepover:g} mm",
+            expected=f"more than 0, at most the {width:.3g} mm the tip is wide",
+            where=f"cutter {cutter.name}",
+        )
+
+
+def _check_stock(relief: Relief, stock: Stock, deepest: float) -> None:
+    if deepest >= stock.thickness:
+        raise InputError(
+            "the relief would cut through the stock",
+            expected=f"a depth under the thickness of {stock.thickness:g} mm",
+            found=f"{deepest:g} mm",
+            hint="a thicker stock or a smaller depth",
+        )
+    x, y = relief.grid.node_axes()
+    slack = 1e-6 * max(stock.width, stock.height)
+    if min(x[0], y[-1]) < -slack or x[-1] > stock.width + slack or y[0] > stock.height + slack:
+        raise InputError(
+            "the relief reaches beyond the stock",
+            expected=f"X 0 to {stock.width:g}, Y 0 to {stock.height:g} mm",
+            found=f"X {x[0]:g} to {x[-1]:g}, Y {y[-1]:g} to {y[0]:g} mm",
+        )
+
+
+def _check_travel(machine: Machine, stock: Stock, deepest: float) -> None:
+    wanted = (stock.width, stock.height, machine.safe_height + deepest)
+    for axis, want, travel in zip("XYZ", wanted, machine.travel, strict=True):
+        if want > travel:
+            raise InputError(
+                f"the panel is larger than the machine {machine.name} can reach",
+                expected=f"at most {travel:g} mm in {axis}",
+                found=f"{want:g} mm",
+                hint="a smaller size, or another machine",
+            )
+
+
+def _check_cutter(cutter: Cutter, stock: Stock, deepest: float) -> None:
+    if cutter.flute_length < deepest:
+        raise InputError(
+            f"the cutter {cutter.name} is too short for the relief",
+            expected=f"a flute of at least {deepest:g} mm",
+            found=f"{cutter.flute_length:g} mm",
+            hint="a longer cutter or a smaller depth",
+        )
+    if cutter.diameter > min(stock.width, stock.height):
+        raise InputError(
+            f"the cutter {cutter.name} is larger than the panel",
+            expected=f"at most {min(stock.width, stock.height):g} mm across",
+            found=f"{cutter.diameter:g} mm",
+        )

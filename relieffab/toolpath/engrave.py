@@ -1,0 +1,39 @@
+"""Engraving: the drawing's strokes, and what the finishing cutter could not reach."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from skimage.measure import approximate_polygon
+
+from relieffab.layers.model import Stroke
+from relieffab.toolpath.passes import Work
+from relieffab.toolpath.trace import Trace, sample
+
+Floats = NDArray[np.float64]
+
+_STRAIGHT = 0.01
+
+
+def stroke_lines(strokes: Sequence[Stroke]) -> list[Floats]:
+    """Turn strokes into lines with no more vertices than their shape needs.
+
+    Returns
+    -------
+    list of (k, 2) ndarray
+        X and Y, mm; closed ones end where they start.
+    """
+    lines = []
+    for stroke in strokes:
+        points = np.asarray(stroke.points, dtype=np.float64)
+        if stroke.closed:
+            points = np.concatenate([points, points[:1]])
+        moved = np.append(True, np.any(np.diff(points, axis=0) != 0, axis=1))
+        if moved.sum() > 1:
+            lines.append(approximate_polygon(points[moved], _STRAIGHT))
+    return lines
+
+
+def stroke_trace(strokes: Sequence[Stroke], work: Work) -> Trace:
+    """Sample the strokes for a cutter to follow."""
+    return sample(stroke_lines(strokes), work.step)

@@ -1,0 +1,181 @@
+"""Runs joined into one motion: order, entries, retracts and feeds.
+
+No rapid ever goes below the face: the cutter comes down at a rapid to a small
+clearance above it, and from there at its plunge feed.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.compiled import kernel
+from relieffab.machine import Cutting, Machine
+from relieffab.toolpath.passes import Pass, bridges
+
+Floats = NDArray[np.float64]
+
+CLEARANCE = 0.5
+"""Height above the face where a rapid down ends, mm."""
+
+_RAMP = 0.15
+_SHORTEST_RAMP = 0.3
+
+
+@dataclass(frozen=True)
+class Linking:
+    """How runs are joined.
+
+    Parameters
+    ----------
+    machine : Machine
+    cutting : Cutting
+    reach : float
+        Farthest end-to-start distance crossed without a retract, mm.
+    ramp : bool
+        Whether entries slope down along the run.
+    """
+
+    machine: Machine
+    cutting: Cutting
+    reach: float
+    ramp: bool = False
+
+
+@kernel
+def _nearest_order(ends, x, y, order, turned):  # type: ignore[no-untyped-def]
+    count = ends.shape[0]
+    left = np.arange(count)
+    for place in range(count):
+        best, chosen, flip = np.inf, 0, False
+        for k in range(count - place):
+            run = left[k]
+            for side in range(2):
+                dx, dy = ends[run, side, 0] - x, ends[run, side, 1] - y
+                distance = dx * dx + dy * dy
+                if distance < best:
+                    best, chosen, flip = distance, k, side == 1
+        run = left[chosen]
+        left[chosen] = left[count - place - 1]
+        order[place], turned[place] = run, flip
+        side = 0 if flip else 1
+        x, y = ends[run, side, 0], ends[run, side, 1]
+
+
+def arrange(runs: list[Floats], start: Floats) -> tuple[list[int], list[bool]]:
+    """Order runs, each next the nearest by either end.
+
+    Returns
+    -------
+    list of int, list of bool
+        Which run comes when, and whether it is cut backwards.
+    """
+    ends = np.array([[run[0, :2], run[-1, :2]] for run in runs], dtype=np.float64)
+    order, turned = np.zeros(len(runs), np.int64), np.zeros(len(runs), np.bool_)
+    _nearest_order(ends, float(start[0]), float(start[1]), order, turned)
+    return order.tolist(), turned.tolist()
+
+
+def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
+    """Join the runs of all passes.
+
+    Returns
+    -------
+    (n, 3) ndarray
+        Positions of the tip, mm; empty where there is nothing to cut.
+    (n,) ndarray
+        Feeds, mm/min, infinite for a rapid.
+    """
+    moves: list[tuple[Floats, bool]] = []
+    safe = linking.machine.safe_height
+    for part in parts:
+        runs, ceilings = _in_order(part, moves[-1][0][-1] if moves else np.zeros(3))
+        joins = _joins(part, runs, linking.reach)
+        for k, run in enumerate(runs):
+            if k in joins:
+                moves.append((joins[k][1:-1], False))
+            else:
+                moves.append((_approach(run, moves[-1][0][-1] if moves else None, safe), True))
+                moves.append((_ramped(run, ceilings[k]) if linking.ramp else run[:0], False))
+            moves.append((run, False))
+    if not moves:
+        return np.zeros((0, 3)), np.zeros(0)
+    end = moves[-1][0][-1]
+    moves.append((np.array([[end[0], end[1], safe]]), True))
+    points = np.concatenate([piece for piece, _ in moves])
+    rapid = np.repeat([fast for _, fast in moves], [len(piece) for piece, _ in moves])
+    return points, _feeds(points, rapid, linking)
+
+
+def _in_order(part: Pass, here: Floats) -> tuple[list[Floats], list[float]]:
+    """Turn a pass's runs the way they are cut, with the stock's height at their starts."""
+    order, turned = arrange(part.runs, here)
+    pairs = list(zip(order, turned, strict=True))
+    runs = [part.runs[k][::-1] if back else part.runs[k] for k, back in pairs]
+    return runs, [float(part.ceiling[k, int(back)]) for k, back in pairs]
+
+
+def _joins(part: Pass, runs: list[Floats], reach: float) -> dict[int, Floats]:
+    """Find the moves from run to run that may stay down, by the later run's place."""
+    near = [
+        k for k in range(1, len(runs)) if np.hypot(*(runs[k][0, :2] - runs[k - 1][-1, :2])) <= reach
+    ]
+    pairs = [np.stack([runs[k - 1][-1, :2], runs[k][0, :2]]) for k in near]
+    return dict(zip(near, bridges(part, pairs), strict=True))
+
+
+def _approach(run: Floats, here: Floats | None, safe: float) -> Floats:
+    """Retract from here, cross at the safe height and come down above a run's start."""
+    x, y, z = run[0]
+    down = [[x, y, safe], [x, y, max(CLEARANCE, z)]]
+    return np.array(down if here is None else [[here[0], here[1], safe], *down])
+
+
+def _ramped(run: Floats, ceiling: float) -> Floats:
+    """Slope down along a run, to and fro if need be, and come back to its start.
+
+    Parameters
+    ----------
+    run : (k, 3) ndarray
+    ceiling : float
+        Height of the stock at the run's start: where the slope begins, mm.
+
+    Returns
+    -------
+    (m, 3) ndarray
+        Nowhere below the run; empty where the run is gentle, or too short to slope along.
+    """
+    steps = np.hypot(*np.diff(run[:, :2], axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    length, z = along[-1], run[:, 2]
+    deepest = z[along * _RAMP <= ceiling - z.min()].min(initial=ceiling)
+    way = (ceiling - deepest) / _RAMP
+    sloping = ceiling - _RAMP * along
+    if length < _SHORTEST_RAMP or (sloping <= z + CLEARANCE * _RAMP)[along <= way].all():
+        return run[:0]
+    legs = int(np.ceil(way / length))
+    stop = way / legs
+    part = np.append(along[along < stop - 1e-9], stop)
+    leg = np.column_stack([np.interp(part, along, run[:, axis]) for axis in range(3)])
+    points = []
+    for number in range(legs):
+        forward = number % 2 == 0
+        path, travelled = (leg, part) if forward else (leg[::-1], stop - part[::-1])
+        height = np.maximum(path[:, 2], ceiling - _RAMP * (number * stop + travelled))
+        points.append(np.column_stack([path[:, :2], height]))
+    if legs % 2 == 1:
+        points.append(leg[::-1])
+    return np.concatenate(points)
+
+
+def _feeds(points: Floats, rapid: NDArray[np.bool_], linking: Linking) -> Floats:
+    """Give every move the feed that its slope allows."""
+    steps = np.diff(points, axis=0, prepend=points[:1])
+    length = np.maximum(np.linalg.norm(steps, axis=1), 1e-9)
+    rise = steps[:, 2]
+    limit = np.where(rise < 0, linking.cutting.plunge, linking.machine.max_rate[2])
+    allowed = limit * length / np.maximum(np.abs(rise), 1e-9)
+    feed = np.minimum(linking.cutting.feed, allowed)
+    even = np.maximum(np.floor(feed / 10 + 1e-9) * 10, np.minimum(feed, 10))
+    return np.where(rapid, np.inf, even)

@@ -1,0 +1,147 @@
+"""Depth in passes: no cut takes more than the stepdown from what still stands."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.cutter import Cutter
+from relieffab.toolpath.envelope import Terrain, tip_heights
+from relieffab.toolpath.simplify import simplify
+from relieffab.toolpath.trace import Trace, follow, sample
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """One cutter before one relief, with the stock as it stands by then.
+
+    Parameters
+    ----------
+    relief, stock : Terrain
+        What is wanted, and what still stands.
+    cutter : Cutter
+    stepdown : float
+        Deepest single pass, mm.
+    allowance : float
+        Distance kept from the relief on every side, mm.
+    tolerance : float
+        Of simplification, mm.
+    least : float
+        Cuts shallower than this are not worth a move, mm.
+    step : float
+        Distance of samples along a line, mm.
+    """
+
+    relief: Terrain
+    stock: Terrain
+    cutter: Cutter
+    stepdown: float
+    allowance: float
+    tolerance: float
+    least: float
+    step: float
+
+    def follow(self, trace: Trace) -> tuple[Trace, Floats]:
+        """Set a trace at its cutter locations.
+
+        Returns
+        -------
+        Trace
+            Refined.
+        ndarray
+            (n,) height at which the cutter would first touch the stock, mm.
+        """
+        low = follow(self.relief, self.cutter, trace, allowance=self.allowance)
+        return low, tip_heights(self.stock, self.cutter, low.xy[:, 0], low.xy[:, 1])
+
+    def level(self, low: Trace, top: Floats, number: int) -> Trace:
+        """Hold a trace above what pass `number` (from 1) may reach."""
+        return replace(low, z=np.maximum(low.z, top - number * self.stepdown))
+
+
+@dataclass(frozen=True, eq=False)
+class Pass:
+    """Runs cut one after another at one depth.
+
+    Parameters
+    ----------
+    work : Work
+    number : int
+        From 1.
+    runs : list of (k, 3) ndarray
+        Positions of the tip, mm.
+    ceiling : (runs, 2) ndarray
+        Where the stock may still stand at each run's start and end, mm.
+    """
+
+    work: Work
+    number: int
+    runs: list[Floats]
+    ceiling: Floats
+
+
+def passes(work: Work, low: Trace, top: Floats) -> Iterator[Pass]:
+    """Cut a followed trace into passes, the highest first."""
+    above = top - low.z
+    number = 0
+    while True:
+        worth = above > max(work.least, number * work.stepdown * (1 + 1e-9))
+        number += 1
+        if not worth.any():
+            return
+        # A sliver under a fiftieth of the stepdown rides along with the pass before it.
+        if number > 1 and above.max() < (number - 1 + 0.02) * work.stepdown:
+            return
+        picked = _with_neighbours(worth, low.joined)
+        run = np.cumsum(np.insert(~(low.joined & picked[1:] & picked[:-1]), 0, True), dtype=np.intp)
+        level = work.level(low, top, number)
+        part = replace(
+            level,
+            xy=level.xy[picked],
+            z=level.z[picked],
+            run=run[picked],
+            corner=level.corner[picked],
+        )
+        before = (top - (number - 1) * work.stepdown)[picked]
+        breaks = np.diff(part.run) > 0
+        starts, ends = np.insert(breaks, 0, True), np.append(breaks, True)
+        ceiling = np.column_stack([before[starts], before[ends]])
+        yield Pass(work, number, runs_of(simplify(part, work.tolerance)), ceiling)
+
+
+def runs_of(trace: Trace) -> list[Floats]:
+    """List the runs of a trace as (k, 3) arrays."""
+    points = np.column_stack([trace.xy, trace.z])
+    return np.split(points, np.flatnonzero(~trace.joined) + 1)
+
+
+def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
+    """Follow straight lines from one run's end to the next one's start, at the pass's depth.
+
+    Parameters
+    ----------
+    part : Pass
+    pairs : list of (2, 2) ndarray
+        X and Y of both ends, mm.
+
+    Returns
+    -------
+    list of (k, 3) ndarray
+    """
+    if not pairs:
+        return []
+    work = part.work
+    low, top = work.follow(sample(pairs, work.step))
+    return runs_of(simplify(work.level(low, top, part.number), work.tolerance))
+
+
+def _with_neighbours(picked: Bools, joined: Bools) -> Bools:
+    """Add the sample before and after every run of picked ones."""
+    wider = picked.copy()
+    wider[1:] |= picked[:-1] & joined
+    wider[:-1] |= picked[1:] & joined
+    return wider

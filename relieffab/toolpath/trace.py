@@ -1,0 +1,142 @@
+"""Lines on the panel turned into cutter locations, close enough that no chord gouges.
+
+A cutter-location surface bends sharply beside a wall, and a flat cutter's jumps.
+Lines are sampled evenly, then halved wherever the chord between two samples may
+pass below the surface; what doubt remains lifts the samples.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.cutter import Cutter
+from relieffab.toolpath.envelope import Terrain, tip_heights
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Ints = NDArray[np.intp]
+
+SKIN = 0.003
+"""Least distance kept from the surface, mm: more than a program's rounded coordinates lose."""
+
+_SAG = 0.002
+_SHORTEST = 0.002
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """Runs of samples, one after another.
+
+    Parameters
+    ----------
+    xy : (n, 2) ndarray
+        The cutter's axis on the panel, mm.
+    z : (n,) ndarray
+        Height of the tip, mm.
+    run : (n,) ndarray of int
+        Which run each sample belongs to, ascending.
+    corner : (n,) ndarray of bool
+        Where the line may turn.
+    """
+
+    xy: Floats
+    z: Floats
+    run: Ints
+    corner: Bools
+
+    def __len__(self) -> int:
+        return len(self.z)
+
+    @property
+    def joined(self) -> Bools:
+        """(n - 1,) whether each sample and the next are of one run."""
+        return self.run[1:] == self.run[:-1]
+
+    @property
+    def steps(self) -> Floats:
+        """(n - 1,) distance on the panel from each sample to the next, mm."""
+        gaps = np.diff(self.xy, axis=0)
+        return np.hypot(gaps[:, 0], gaps[:, 1])
+
+
+def sample(lines: Sequence[Floats], step: float) -> Trace:
+    """Set samples along lines, at every vertex and at most `step` apart; z is 0 yet.
+
+    Parameters
+    ----------
+    lines : sequence of (k, 2) ndarray
+        X and Y, mm.
+    step : float
+        mm.
+    """
+    xy, run, corner = [np.zeros((0, 2))], [np.zeros(0, np.intp)], [np.zeros(0, bool)]
+    for number, line in enumerate(lines):
+        lengths = np.hypot(*np.diff(line, axis=0).T)
+        pieces = np.maximum(np.ceil(lengths / step - 1e-9), 2).astype(int)
+        ends = np.concatenate([[0], np.cumsum(pieces)])
+        places = np.arange(ends[-1] + 1)
+        at = [np.interp(places, ends, line[:, axis]) for axis in (0, 1)]
+        xy.append(np.stack(at, axis=1))
+        run.append(np.full(len(places), number, np.intp))
+        corner.append(np.isin(places, ends))
+    points = np.concatenate(xy)
+    return Trace(points, np.zeros(len(points)), np.concatenate(run), np.concatenate(corner))
+
+
+def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float = SKIN) -> Trace:
+    """Set a trace at its cutter locations and refine it until no chord can gouge.
+
+    Returns
+    -------
+    Trace
+        With samples added; `z` nowhere below the cutter-location surface, nor
+        is any straight line between neighbours, to within micrometres sideways.
+    """
+    x, y = trace.xy.T
+    trace = replace(trace, z=tip_heights(terrain, cutter, x, y, allowance=allowance))
+    while len(trace) > 1:
+        split = np.flatnonzero((_doubt(trace) > _SAG) & (trace.steps > _SHORTEST))
+        if split.size == 0:
+            return _lifted(trace)
+        middle = 0.5 * (trace.xy[split] + trace.xy[split + 1])
+        z = tip_heights(terrain, cutter, middle[:, 0], middle[:, 1], allowance=allowance)
+        trace = Trace(
+            np.insert(trace.xy, split + 1, middle, axis=0),
+            np.insert(trace.z, split + 1, z),
+            np.insert(trace.run, split + 1, trace.run[split]),
+            np.insert(trace.corner, split + 1, False),
+        )
+    return trace
+
+
+def _doubt(trace: Trace) -> Floats:
+    """Bound how far the surface may rise above the chord of each interval, mm.
+
+    Where it is concave the neighbouring chords, prolonged, pass above it; where
+    one side bends much more than the other, a bend may hide inside, and a quarter
+    of that side's rise is taken.  Beyond a run's
+    end or a corner the surface is taken to be level.
+    """
+    steps, joined = np.maximum(trace.steps, 1e-12), trace.joined
+    slope = np.diff(trace.z) / steps
+    smooth = joined[1:] & joined[:-1] & ~trace.corner[1:-1]
+    before = np.insert(np.where(smooth, slope[:-1], 0.0), 0, 0.0) - slope
+    after = slope - np.append(np.where(smooth, slope[1:], 0.0), 0.0)
+    left, right = before.clip(0), after.clip(0)
+    both = left * right / np.maximum(left + right, 1e-12)
+    one = 0.25 * (np.maximum(left, right) - 2 * np.minimum(left, right))
+    return np.where(joined, np.maximum(both, one) * steps, 0.0)
+
+
+def _lifted(trace: Trace) -> Trace:
+    """Raise the samples by the doubt that is left; across a jump, to its upper side."""
+    doubt = _doubt(trace)
+    pair_top = np.maximum(trace.z[1:], trace.z[:-1])
+    jump = doubt > _SAG
+    z = trace.z.copy()
+    for side in (slice(None, -1), slice(1, None)):
+        raised = np.where(jump, pair_top, trace.z[side] + doubt)
+        z[side] = np.maximum(z[side], raised)
+    return replace(trace, z=z)

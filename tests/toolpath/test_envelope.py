@@ -1,0 +1,188 @@
+"""The compiled drop-cutter against dense sampling and against plane geometry."""
+
+import math
+
+import numba
+import numpy as np
+import pytest
+
+from relieffab.cutter import Cutter
+from relieffab.grid import Grid
+from relieffab.relief.model import Relief
+from relieffab.toolpath.envelope import Terrain, tip_heights
+
+COMMON = {"flute_length": 9.0, "stepdown": 1.0, "feed": 800.0, "plunge": 200.0, "rpm": 9000.0}
+CUTTERS = {
+    "flat": Cutter("c", "flat", 1.5, **COMMON),
+    "ball": Cutter("c", "ball", 1.5, **COMMON),
+    "bull": Cutter("c", "bull", 1.6, corner_radius=0.3, **COMMON),
+    "vee": Cutter("c", "vee", 2.0, angle=60, tip_diameter=0.2, **COMMON),
+    "sharp vee": Cutter("c", "vee", 2.0, angle=90, **COMMON),
+    "tapered ball": Cutter("c", "tapered ball", 2.0, angle=20, tip_diameter=0.6, **COMMON),
+}
+GRID = Grid(9, 11, 0.4, (1.0, 5.0))
+DEPTH = 2.0
+
+
+def relief_of(heights, grid=GRID):
+    return Relief(grid, np.asarray(heights, float), np.ones(grid.shape, bool), 10.0)
+
+
+def random_heights(kind, rng):
+    smooth = -DEPTH * rng.random(GRID.node_shape)
+    if kind == "walls":
+        return np.where(rng.random(GRID.node_shape) < 0.6, -DEPTH, 0.0)
+    return smooth if kind == "rough" else 0.1 * smooth
+
+
+def sampled_tip_heights(relief, cutter, x, y):
+    """Slow twin: the largest gap over dense samples of the surface, then denser ones around it."""
+    rows, cols = relief.grid.shape
+    at, along = np.arange(-2, rows + 2.01, 1 / 16), np.arange(-2, cols + 2.01, 1 / 16)
+    sx, sy = relief.grid.to_xy(*np.meshgrid(at, along, indexing="ij"))
+    sz = relief.height_at(sx, sy)
+    best = []
+    for a, b in zip(x, y, strict=True):
+        px, py, pz, spacing = sx, sy, sz, relief.grid.pitch / 16
+        tip = -np.inf
+        for _ in range(4):
+            gap = pz - cutter.profile(np.hypot(px - a, py - b))
+            k = np.unravel_index(gap.argmax(), gap.shape)
+            tip = max(tip, gap[k])
+            near = np.linspace(-1.5, 1.5, 25) * spacing
+            px, py = np.meshgrid(px[k] + near, py[k] + near)
+            pz, spacing = relief.height_at(px, py), spacing / 8
+        best.append(tip)
+    return np.array(best)
+
+
+@pytest.mark.parametrize("kind", ["rough", "walls", "gentle"])
+@pytest.mark.parametrize("name", CUTTERS)
+def test_never_below_a_sampled_twin_and_close_above_it(name, kind):
+    rng = np.random.default_rng(3)
+    relief = relief_of(random_heights(kind, rng))
+    x, y = rng.uniform(0.6, 5.8, 40), rng.uniform(1.0, 5.4, 40)
+    fast = tip_heights(Terrain.of(relief), CUTTERS[name], x, y)
+    gap = fast - sampled_tip_heights(relief, CUTTERS[name], x, y)
+    assert gap.min() > -1e-9
+    assert np.quantile(gap, 0.9) < 0.001
+    assert gap.max() < 0.1
+
+
+def slope_relief(tangent):
+    """A plane that falls along X, on a grid much wider than any cutter."""
+    grid = Grid(40, 40, 0.3, (0.0, 12.0))
+    x, _ = grid.node_axes()
+    return relief_of(np.tile(-tangent * x, (41, 1)), grid)
+
+
+@pytest.mark.parametrize("tangent", [0.1, 0.3, 0.7])
+def test_ball_on_a_slope_touches_square_to_it(tangent):
+    relief, x = slope_relief(tangent), 6.05
+    ball = CUTTERS["ball"]
+    lifted = ball.radius * (math.hypot(1, tangent) - 1)
+    found = tip_heights(Terrain.of(relief), ball, x, 6.13)
+    assert found == pytest.approx(-tangent * x + lifted, abs=1e-9)
+
+
+@pytest.mark.parametrize("tangent", [0.1, 0.7])
+def test_flat_on_a_slope_rests_on_its_rim(tangent):
+    found = tip_heights(Terrain.of(slope_relief(tangent)), CUTTERS["flat"], 6.05, 6.13)
+    assert found == pytest.approx(-tangent * (6.05 - 0.75), abs=1e-9)
+
+
+def test_bull_on_a_slope_touches_with_its_arc():
+    tangent, bull = 0.5, CUTTERS["bull"]
+    found = tip_heights(Terrain.of(slope_relief(tangent)), bull, 6.05, 6.13)
+    lifted = bull.flat_radius * tangent + 0.3 * (math.hypot(1, tangent) - 1)
+    assert found == pytest.approx(-tangent * 6.05 + lifted, abs=1e-9)
+
+
+def groove_relief():
+    """A straight groove along Y, its sides falling at 45 degrees to a depth of 1.2 mm."""
+    grid = Grid(40, 40, 0.3, (0.0, 12.0))
+    x, _ = grid.node_axes()
+    return relief_of(np.tile(np.minimum(np.abs(x - 6.0) - 1.2, 0.0), (41, 1)), grid)
+
+
+def test_vee_in_a_groove_of_its_own_angle_reaches_the_bottom():
+    found = tip_heights(Terrain.of(groove_relief()), CUTTERS["sharp vee"], 6.0, 6.13)
+    assert found == pytest.approx(-1.2, abs=1e-9)
+
+
+def test_blunt_cutters_in_a_groove_rest_on_its_sides():
+    terrain = Terrain.of(groove_relief())
+    ball = tip_heights(terrain, CUTTERS["ball"], 6.0, 6.13)
+    assert ball == pytest.approx(-1.2 + 0.75 * (math.sqrt(2) - 1), abs=1e-9)
+    flat = tip_heights(terrain, CUTTERS["flat"], 6.0, 6.13)
+    assert flat == pytest.approx(-1.2 + 0.75, abs=1e-9)
+
+
+def wall_relief():
+    """The face left of X 6, then a wall one pixel wide down to -2."""
+    grid = Grid(40, 40, 0.3, (0.0, 12.0))
+    x, _ = grid.node_axes()
+    return relief_of(np.tile(np.where(x < 6.15, 0.0, -2.0), (41, 1)), grid)
+
+
+@pytest.mark.parametrize("away", [0.749, 0.75, 0.751, 1.1])
+def test_flat_beside_a_wall_clears_it_by_its_radius_and_no_less(away):
+    found = tip_heights(Terrain.of(wall_relief()), CUTTERS["flat"], 6.0 + away, 6.13)
+    if away <= 0.75:
+        assert found == 0.0
+    else:
+        foot = -2.0 * (away - 0.75) / 0.3
+        assert found == pytest.approx(max(foot, -2.0), abs=1e-9)
+
+
+def test_tapered_ball_beside_a_wall_rests_on_the_walls_edge():
+    cutter = CUTTERS["tapered ball"]
+    found = tip_heights(Terrain.of(wall_relief()), cutter, 6.45, 6.13)
+    assert found == pytest.approx(-float(cutter.profile(0.45)), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", CUTTERS)
+def test_allowance_is_kept_in_every_direction(name):
+    """Grown by its allowance, a cutter still clears the surface by that distance."""
+    rng = np.random.default_rng(5)
+    relief = relief_of(random_heights("rough", rng))
+    cutter, allowance = CUTTERS[name], 0.12
+    terrain = Terrain.of(relief)
+    z = tip_heights(terrain, cutter, 3.1, 3.4, allowance=allowance)
+    for angle in np.linspace(0, 2 * np.pi, 16, endpoint=False):
+        dx, dy = 0.999 * allowance * np.cos(angle), 0.999 * allowance * np.sin(angle)
+        assert tip_heights(terrain, cutter, 3.1 + dx, 3.4 + dy) <= z + 1e-9
+    assert tip_heights(terrain, cutter, 3.1, 3.4) <= z - allowance + 1e-9
+
+
+def test_the_face_goes_on_beyond_the_grid():
+    terrain = Terrain.of(relief_of(np.full(GRID.node_shape, -DEPTH)))
+    assert tip_heights(terrain, CUTTERS["ball"], [0.5, 1.0, 9.0], [3.0, 3.0, 9.0]).tolist() == [
+        0,
+        0,
+        0,
+    ]
+    near = tip_heights(terrain, CUTTERS["ball"], 1.3, 3.0)
+    assert near == pytest.approx(-float(CUTTERS["ball"].profile(0.3)), abs=1e-12)
+
+
+def test_the_answer_does_not_depend_on_the_number_of_threads():
+    rng = np.random.default_rng(8)
+    terrain = Terrain.of(relief_of(random_heights("rough", rng)))
+    x, y = rng.uniform(0.6, 5.8, 3000), rng.uniform(1.0, 5.4, 3000)
+    many = tip_heights(terrain, CUTTERS["ball"], x, y)
+    threads = numba.get_num_threads()
+    numba.set_num_threads(1)
+    try:
+        one = tip_heights(terrain, CUTTERS["ball"], x, y)
+    finally:
+        numba.set_num_threads(threads)
+    assert np.array_equal(one, many)
+
+
+def test_inputs_stay_as_they_were():
+    heights = random_heights("rough", np.random.default_rng(2))
+    kept, x = heights.copy(), np.array([2.0, 3.0])
+    tip_heights(Terrain.over(GRID, heights), CUTTERS["ball"], x, np.array([3.0, 3.0]))
+    assert np.array_equal(heights, kept)
+    assert x.tolist() == [2, 3]

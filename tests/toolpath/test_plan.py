@@ -1,0 +1,119 @@
+"""A small relief planned whole, and carved again by plain sampling."""
+
+import numpy as np
+import pytest
+
+from relieffab import profiles
+from relieffab.errors import InputError
+from relieffab.grid import Grid
+from relieffab.layers.model import Stroke
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+from relieffab.toolpath.plan import Settings, plan
+from relieffab.toolpath.remains import after
+
+GRID = Grid.on_panel((30.0, 24.0), (250, 200))
+DEPTH = 2.0
+
+
+def figure():
+    """An oval with a wall of 1.5 mm, soft hills and two grooves."""
+    x, y = np.meshgrid(*GRID.node_axes())
+    inside = np.hypot((x - 15) / 11, (y - 12) / 8) < 1
+    heights = -1.4 + 0.3 * np.sin(x / 1.7) * np.cos(y / 1.3)
+    grooves = np.minimum(np.abs(y - 12 - np.sin(x)), np.abs(x - 15 + np.sin(y)))
+    heights = heights - np.clip(0.6 - 1.2 * grooves, 0.0, 0.4)
+    heights = np.where(inside, np.clip(heights, -DEPTH, 0.0), 0.0)
+    return Relief(GRID, heights, inside[:-1, :-1] | inside[1:, 1:], DEPTH)
+
+
+def strokes():
+    t = np.linspace(6, 24, 300)
+    points = np.column_stack([t, 12 + np.sin(t)])
+    return (Stroke(points, "crease", np.ones(len(t))),)
+
+
+@pytest.fixture(scope="module")
+def planned():
+    relief = figure()
+    machine, material = profiles.machine("3018-prover"), profiles.material("softwood")
+    return relief, plan(relief, strokes(), machine, material)
+
+
+def carved(relief, paths, spacing=0.02):
+    left = np.zeros(GRID.node_shape)
+    for path in paths:
+        steps = np.diff(path.points, axis=0)
+        parts = np.maximum(np.ceil(np.linalg.norm(steps, axis=1) / spacing), 1).astype(int)
+        which = np.repeat(np.arange(len(steps)), parts)
+        share = 1 - (np.repeat(np.cumsum(parts), parts) - np.arange(len(which)) - 1) / parts[which]
+        at = path.points[which] + steps[which] * share[:, None]
+        left = after(left, GRID, path.cutter, at)
+    return left
+
+
+def test_there_is_one_path_a_cutter_in_order(planned):
+    _, paths = planned
+    assert [path.name for path in paths] == ["rough", "finish", "lines"]
+    assert [path.cutter.name for path in paths] == [
+        "flat-3.175",
+        "tapered-ball-1",
+        "tapered-ball-0.5",
+    ]
+
+
+def test_nothing_is_gouged_and_the_figure_is_reached(planned):
+    relief, paths = planned
+    excess = carved(relief, paths) - relief.heights
+    assert excess.min() > -0.005
+    figure = relief.heights < 0
+    assert (excess[figure] < 0.1).mean() > 0.95
+
+
+def test_no_move_goes_below_the_depth_and_no_rapid_below_the_face(planned):
+    for path in planned[1]:
+        assert path.points[:, 2].min() >= -DEPTH
+        assert path.points[np.isinf(path.feed), 2].min() > 0
+        assert np.isinf(path.feed[[0, -1]]).all()
+        assert path.points[-1, 2] == 5.0
+
+
+def test_roughing_leaves_its_allowance(planned):
+    relief, paths = planned
+    excess = carved(relief, paths[:1]) - relief.heights
+    assert excess[relief.heights < -0.5].min() > 0.28
+
+
+def test_planning_again_gives_the_same_paths(planned):
+    relief, paths = planned
+    again = plan(relief, strokes(), profiles.machine(), profiles.material())
+    for one, other in zip(paths, again, strict=True):
+        assert np.array_equal(one.points, other.points)
+        assert np.array_equal(one.feed, other.feed)
+
+
+def test_a_finer_stepover_leaves_less(planned):
+    relief, paths = planned
+    machine, material = profiles.machine(), profiles.material()
+    coarse = plan(relief, (), machine, material, settings=Settings(stepover=0.6))
+    figure = relief.heights < 0
+    left = [(carved(relief, path[:2]) - relief.heights)[figure].mean() for path in (paths, coarse)]
+    assert left[0] < 0.8 * left[1]
+
+
+def test_a_relief_too_shallow_for_any_cut_is_refused():
+    heights = np.zeros(GRID.node_shape)
+    heights[50:60, 50:60] = -0.005
+    relief = Relief(GRID, heights, np.ones(GRID.shape, bool), 1.0)
+    with pytest.raises(InputError, match="nothing to cut"):
+        plan(relief, (), profiles.machine(), profiles.material())
+
+
+def test_stock_is_checked():
+    with pytest.raises(InputError, match="through the stock"):
+        plan(figure(), (), profiles.machine(), profiles.material(), stock=Stock(30.0, 24.0, 1.5))
+
+
+def test_settings_are_checked():
+    with pytest.raises(InputError, match="tolerance cannot be 0"):
+        Settings(tolerance=0.0)
