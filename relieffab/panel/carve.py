@@ -1,0 +1,158 @@
+"""The slab minus the space above the relief: Relief and Stock to Panel."""
+
+import manifold3d
+import numpy as np
+
+from relieffab.errors import InputError, RelieffabError
+from relieffab.grid import Grid
+from relieffab.layers.raster import rasterise
+from relieffab.panel.clearance import CLEARANCE, clear_of_face
+from relieffab.panel.model import Floats, Ints, Panel, Surface
+from relieffab.panel.simplify import deviation, simplify
+from relieffab.panel.sinking import sink
+from relieffab.panel.triangulate import edge_keys, has_repeats, solid_above, triangulate
+from relieffab.progress import Progress, silent
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+
+# How far above the face the space that is taken away reaches, mm.
+HEADROOM = 1.0
+
+
+def checked(solid: manifold3d.Manifold, what: str) -> manifold3d.Manifold:
+    """Return a solid, or raise what the solid modeller says against it.
+
+    Manifold raises nothing: a bad input becomes an empty solid with a status.
+
+    Raises
+    ------
+    RelieffabError
+        With the modeller's own word.
+    """
+    status = solid.status()
+    if status != manifold3d.Error.NoError:
+        raise RelieffabError(f"{what} is not a solid", expected="NoError", found=status.name)
+    if solid.is_empty():
+        raise RelieffabError(f"{what} is empty", expected="a volume", found="0 mm³")
+    return solid
+
+
+def _solid(vertices: Floats, faces: Ints, what: str) -> manifold3d.Manifold:
+    mesh = manifold3d.Mesh64(
+        np.ascontiguousarray(vertices, np.float64), np.ascontiguousarray(faces, np.uint64)
+    )
+    return checked(manifold3d.Manifold(mesh), what)
+
+
+def slab(stock: Stock) -> manifold3d.Manifold:
+    """Make the uncut slab, its face at Z0."""
+    size = (stock.width, stock.height, stock.thickness)
+    box = manifold3d.Manifold.cube(size).translate((0.0, 0.0, -stock.thickness))
+    return checked(box, "the slab")
+
+
+def carve(stock: Stock, surface: Surface) -> manifold3d.Manifold:
+    """Take the space above a surface out of the slab.
+
+    Raises
+    ------
+    RelieffabError
+        If either, or what is left, is not a solid.
+    """
+    space = _solid(*solid_above(surface, HEADROOM), "the space above the relief")
+    return checked(slab(stock) - space, "the carved panel")
+
+
+def is_watertight(faces: Ints) -> bool:
+    """Say whether every edge is walked exactly once each way."""
+    there, back = edge_keys(faces), edge_keys(faces, reverse=True)
+    return not has_repeats(there) and np.array_equal(np.sort(there), np.sort(back))
+
+
+def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
+    """Measure a panel against the relief at all inner nodes and pixel centres, mm.
+
+    Nodes on the grid's border may lie in a vertical side, where a panel has no
+    one height; `deviation` has measured the surface there.
+    """
+    grid, h = relief.grid, relief.heights
+    centres = (h[:-1, :-1] + h[1:, 1:]) / 2
+    worst = np.abs(rasterise(vertices, faces, grid).depth - centres).max()
+    if min(grid.shape) > 1:
+        between = Grid(grid.rows - 1, grid.cols - 1, grid.pitch, grid.to_xy(0.5, 0.5))
+        nodes = rasterise(vertices, faces, between).depth
+        worst = max(worst, np.abs(nodes - h[1:-1, 1:-1]).max())
+    return float(worst)
+
+
+def _finish(solid: manifold3d.Manifold, relief: Relief, error: float) -> Panel:
+    mesh = solid.to_mesh64()
+    vertices = np.array(mesh.vert_properties[:, :3], np.float64)
+    faces = np.array(mesh.tri_verts, np.int64)
+    return Panel(
+        vertices,
+        faces,
+        is_watertight(faces),
+        float(solid.volume()),
+        max(error, largest_error(vertices, faces, relief)),
+    )
+
+
+def make_panel(
+    relief: Relief, stock: Stock, *, tolerance: float = 0.02, progress: Progress = silent
+) -> Panel:
+    """Carve a relief into a slab.
+
+    Parameters
+    ----------
+    relief : Relief
+        One with nothing below the face leaves the plain slab.
+    stock : Stock
+    tolerance : float, optional
+        Largest vertical distance between panel and relief at any node and any
+        pixel centre, mm.
+    progress : Progress, optional
+
+    Returns
+    -------
+    Panel
+        Watertight, its error measured.
+
+    Raises
+    ------
+    InputError
+        If the tolerance is not a length, or the stock cannot hold the relief.
+    RelieffabError
+        If the result breaks the tolerance or is no solid; neither should be.
+    """
+    if not 0 < tolerance < stock.thickness:
+        raise InputError(
+            "the panel's tolerance cannot be met",
+            expected=f"more than 0 mm, less than the stock's thickness, {stock.thickness:g} mm",
+            found=f"{tolerance:g} mm",
+        )
+    sinking = sink(relief, stock)
+    if sinking.empty:
+        return _finish(slab(stock), relief, 0.0)
+    clearance = min(CLEARANCE, tolerance / 20)
+    surface = triangulate(sinking, tolerance / 2 - clearance)
+    surface = simplify(surface, sinking, tolerance - 2 * clearance, progress=progress)
+    progress("carve", 0, 1)
+    surface = clear_of_face(surface, clearance)
+    error = max(float(part.max()) for part in deviation(surface, sinking))
+    panel = _finish(carve(stock, surface), relief, error)
+    progress("carve", 1, 1)
+    return accept(panel, tolerance)
+
+
+def accept(panel: Panel, tolerance: float) -> Panel:
+    """Return a panel that is watertight and within tolerance, else raise."""
+    if panel.max_error_mm > tolerance:
+        raise RelieffabError(
+            "the panel is out of tolerance",
+            expected=f"within {tolerance:g} mm of the relief",
+            found=f"{panel.max_error_mm:g} mm",
+        )
+    if not panel.watertight:
+        raise RelieffabError("the panel is not watertight", expected="two triangles at every edge")
+    return panel

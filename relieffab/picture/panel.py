@@ -1,0 +1,47 @@
+"""The one picture that shows what a job is going to carve."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from relieffab.picture.render import OpenGLMissingError, TriangleMesh, render_panel
+from relieffab.picture.stone import LIGHT, hillshade
+from relieffab.relief.model import Relief
+
+Method = Literal["pyrender", "hillshade"]
+
+
+def panel_picture(
+    relief: Relief,
+    panel: TriangleMesh | None = None,
+    *,
+    width: int = 1600,
+    light: ArrayLike = LIGHT,
+) -> tuple[NDArray[np.uint8], Method]:
+    """Picture a relief for presentation.
+
+    Parameters
+    ----------
+    relief : Relief
+    panel : TriangleMesh, optional
+        The solid it is sunk into: anything with `vertices` and `faces`.
+    width : int
+        Of the picture in perspective, pixels.
+    light : (3,) array_like
+        Towards the key light.
+
+    Returns
+    -------
+    image : (h, w, 3) ndarray of uint8
+    method : str
+        'pyrender' for the panel in perspective; 'hillshade' for the relief seen
+        straight on, where there is no panel or no OpenGL.
+    """
+    face = hillshade(relief, light)
+    if panel is None:
+        return face, "hillshade"
+    try:
+        return render_panel(panel, face, relief.grid, width=width, light=light), "pyrender"
+    except OpenGLMissingError:
+        return face, "hillshade"

@@ -1,0 +1,245 @@
+"""A panel photographed: its real solid, tilted on a table, drawn by pyrender.
+
+The stone's shading is the hillshade of the relief laid over the face as a texture,
+because it knows shadows and soft light; OpenGL gives the perspective, what hides
+what, and the slab's sides.
+"""
+
+import os
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from relieffab.errors import RelieffabError
+from relieffab.grid import Grid
+from relieffab.picture.stone import BOUNCE, GAMMA, KEY, LIGHT, SKY, STONE, unit_light
+
+Floats = NDArray[np.float64]
+
+# How the panel is turned from the full view, degrees; and the camera's field of view.
+TILT, SWING, FIELD_OF_VIEW = 27.0, -10.0, 24.0
+# Share of the picture that the panel may fill.
+FILL = 0.93
+TABLE = (0.60, 0.57, 0.53)
+CLAMP_TO_EDGE = 33071
+
+
+class OpenGLMissingError(RelieffabError):
+    """There is no OpenGL to draw with here."""
+
+
+class TriangleMesh(Protocol):
+    """Whatever has the vertices and faces of a solid."""
+
+    @property
+    def vertices(self) -> Floats:
+        """(v, 3), mm."""
+
+    @property
+    def faces(self) -> NDArray[np.integer]:
+        """(f, 3), counter-clockwise seen from outside."""
+
+
+def _open_renderer(width: int, height: int) -> Any:
+    """Open pyrender off screen, through EGL unless the environment says otherwise."""
+    os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
+    try:
+        from OpenGL.error import Error as OpenGLError
+        from pyrender import OffscreenRenderer
+    except (ImportError, AttributeError, OSError) as error:
+        raise OpenGLMissingError(
+            "pyrender cannot be loaded", found=str(error), hint="install libegl1 and libgl1"
+        ) from error
+    try:
+        return OffscreenRenderer(width, height)
+    # What pyrender's EGL layer raises, by its source, where there is no usable device.
+    except (
+        OpenGLError,
+        ImportError,
+        AssertionError,
+        IndexError,
+        ValueError,
+        RuntimeError,
+    ) as error:
+        raise OpenGLMissingError(
+            "OpenGL cannot be opened", found=str(error), hint="install libgl1-mesa-dri"
+        ) from error
+
+
+def camera_pose(low: Floats, high: Floats, aspect: float) -> Floats:
+    """Place a camera so that a box just fits the picture.
+
+    Parameters
+    ----------
+    low, high : (3,) ndarray
+        Corners of the box, mm.
+    aspect : float
+        Width of the picture over its height.
+
+    Returns
+    -------
+    ndarray (4, 4)
+        Camera to panel coordinates; the camera looks along its own -Z.
+    """
+    tilt, swing = np.radians(TILT), np.radians(SWING)
+    back = np.array([np.sin(swing) * np.cos(tilt), -np.sin(tilt), np.cos(swing) * np.cos(tilt)])
+    right = np.cross([0.0, 1.0, 0.0], back)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, np.cross(back, right), back], axis=1)
+    half = (high - low) / 2
+    corners = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]) * half
+    x, y, z = (corners @ axes).T
+    reach = FILL * np.tan(np.radians(FIELD_OF_VIEW) / 2)
+    distance = np.max(z + np.maximum(np.abs(x) / aspect, np.abs(y)) / reach)
+    pose = np.eye(4)
+    pose[:3, :3] = axes
+    pose[:3, 3] = (low + high) / 2 + distance * back
+    return pose
+
+
+def side_faces(vertices: Floats, faces: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Which faces lie on the slab's sides or its back, (f,)."""
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    close = 1e-4 * float((high - low).max())
+    corners = vertices[faces]
+    on_low = (np.abs(corners - low) < close).all(axis=1)
+    on_high = (np.abs(corners - high) < close).all(axis=1)
+    return np.asarray(on_low.any(axis=1) | on_high[:, :2].any(axis=1))
+
+
+def _texture(image: NDArray[np.uint8]) -> Any:
+    from pyrender import MetallicRoughnessMaterial, Sampler, Texture
+
+    sampler = Sampler(wrapS=CLAMP_TO_EDGE, wrapT=CLAMP_TO_EDGE)
+    texture = Texture(source=np.ascontiguousarray(image), source_channels="RGB", sampler=sampler)
+    return MetallicRoughnessMaterial(baseColorTexture=texture, doubleSided=True)
+
+
+def _face(panel: TriangleMesh, faces: NDArray[np.integer], image: Any, grid: Grid) -> Any:
+    """Lay the texture over the carved face."""
+    from pyrender import Primitive
+
+    row, col = grid.to_index(panel.vertices[:, 0], panel.vertices[:, 1])
+    where = np.stack([col / grid.cols, 1 - row / grid.rows], axis=1)
+    return Primitive(
+        positions=panel.vertices.astype(np.float32),
+        indices=faces.astype(np.uint32),
+        texcoord_0=where.astype(np.float32),
+        material=_texture(image),
+    )
+
+
+def _sides(panel: TriangleMesh, faces: NDArray[np.integer], light: Floats) -> Any:
+    """Colour the slab's sides, each in one shade of the stone."""
+    from pyrender import MetallicRoughnessMaterial, Primitive
+
+    corners = panel.vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    grey = KEY * np.maximum(normals @ light, 0) + SKY * (1 + normals[:, 2]) / 2 + 2 * BOUNCE
+    colours = np.clip(grey[:, None] * np.asarray(STONE), 0, 1) ** (1 / GAMMA)
+    alpha = np.ones((len(colours), 1))
+    return Primitive(
+        positions=corners.reshape(-1, 3).astype(np.float32),
+        color_0=np.repeat(np.hstack([colours, alpha]), 3, axis=0).astype(np.float32),
+        material=MetallicRoughnessMaterial(doubleSided=True),
+    )
+
+
+def _ramp(x: Floats, low: float, high: float, soft: float) -> Floats:
+    """1 between low and high, 0 beyond, soft at both ends."""
+    t = np.clip(np.minimum(x - low, high - x) / (2 * soft) + 0.5, 0, 1)
+    return np.asarray(t * t * (3 - 2 * t))
+
+
+def _table(low: Floats, high: Floats, light: Floats) -> Any:
+    """Lay a plain table below, the slab's soft shadow on it."""
+    from pyrender import Primitive
+
+    size, thick = (high - low)[:2], float(high[2] - low[2])
+    start, end = low[:2] - 2 * size, high[:2] + 2 * size
+    x, y = (np.linspace(start[k], end[k], 768) for k in (0, 1))
+    shadow = np.ones((len(y), len(x)))
+    # The slab's shadow is swept from its foot to its upper edge's.
+    for share in np.linspace(0, 1, 8):
+        dx, dy = -share * thick * light[:2] / light[2]
+        soft = thick * (0.12 + 0.35 * share)
+        across = _ramp(x, low[0] + dx, high[0] + dx, soft)
+        along = _ramp(y, low[1] + dy, high[1] + dy, soft)
+        shadow = np.minimum(shadow, 1 - 0.62 * np.outer(along, across))
+    far = np.hypot(*np.meshgrid((x - x.mean()) / size[0], (y - y.mean()) / size[1]))
+    grey = shadow * (1.08 - 0.22 * far**2)
+    image = np.clip(grey[..., None] * TABLE, 0, 1) ** (1 / GAMMA)
+    corners = [(start[0], start[1]), (end[0], start[1]), (end[0], end[1]), (start[0], end[1])]
+    below = float(low[2]) - 0.002 * thick
+    return Primitive(
+        positions=np.array([(a, b, below) for a, b in corners], np.float32),
+        indices=np.array([[0, 1, 2], [0, 2, 3]], np.uint32),
+        texcoord_0=np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32),
+        material=_texture(np.rint(255 * image[::-1]).astype(np.uint8)),
+    )
+
+
+def render_panel(
+    panel: TriangleMesh,
+    face: NDArray[np.uint8],
+    grid: Grid,
+    *,
+    width: int = 1600,
+    light: ArrayLike = LIGHT,
+) -> NDArray[np.uint8]:
+    """Draw a panel in perspective.
+
+    Parameters
+    ----------
+    panel : TriangleMesh
+        Closed, the face at Z0, mm.
+    face : (rows, cols, 3) ndarray of uint8
+        Picture of the relief, seen straight on.
+    grid : Grid
+        Where that picture lies on the panel.
+    width : int
+        Of the picture, pixels; its height is three quarters of that.
+    light : (3,) array_like
+        Towards the key light; the same as the face's.
+
+    Returns
+    -------
+    ndarray (3/4 width, width, 3) of uint8
+
+    Raises
+    ------
+    OpenGLMissingError
+        Where pyrender finds no OpenGL.
+    """
+    height = width * 3 // 4
+    renderer = _open_renderer(width, height)
+    try:
+        from pyrender import Mesh, PerspectiveCamera, RenderFlags, Scene
+
+        low, high = panel.vertices.min(axis=0), panel.vertices.max(axis=0)
+        side = side_faces(panel.vertices, panel.faces)
+        towards = unit_light(light)
+        pose = camera_pose(low, high, width / height)
+        scene = Scene(bg_color=(*TABLE, 1.0))
+        parts = [
+            _face(panel, panel.faces[~side], face, grid),
+            _sides(panel, panel.faces[side], towards),
+            _table(low, high, towards),
+        ]
+        for part in parts:
+            scene.add(Mesh([part]))
+        span = float(np.linalg.norm(high - low))
+        distance = float(np.linalg.norm(pose[:3, 3] - (low + high) / 2))
+        camera = PerspectiveCamera(
+            yfov=np.radians(FIELD_OF_VIEW),
+            aspectRatio=width / height,
+            znear=max(0.1 * span, distance - 2 * span),
+            zfar=distance + 6 * span,
+        )
+        scene.add(camera, pose=pose)
+        colour, _ = renderer.render(scene, flags=RenderFlags.FLAT)
+    finally:
+        renderer.delete()
+    return np.array(colour[..., :3], dtype=np.uint8)

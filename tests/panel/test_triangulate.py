@@ -1,0 +1,120 @@
+import manifold3d
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from relieffab.grid import Grid
+from relieffab.panel.sinking import sink
+from relieffab.panel.triangulate import outline, solid_above, split_touching, triangulate
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+
+STOCK = Stock(100, 100, 10)
+HEIGHTS = st.one_of(st.just(0.0), st.sampled_from([-0.5, -1.0, -1e-5]), st.floats(-2, 0, width=16))
+
+
+def surface_of(heights, bound=0.0):
+    heights = np.array(heights, float)
+    rows, cols = heights.shape[0] - 1, heights.shape[1] - 1
+    grid = Grid(rows, cols, 1.0, (5.0, 5.0 + rows))
+    relief = Relief(grid, heights, np.ones((rows, cols), bool), 2.0)
+    return relief, triangulate(sink(relief, STOCK), bound)
+
+
+def height_by_search(surface, x, y):
+    """The slow twin of sampling: try every triangle for the point."""
+    for a, b, c in surface.points()[surface.faces]:
+        frame = np.stack([b - a, c - a], axis=1)[:2]
+        u, v = np.linalg.solve(frame, np.array([x, y]) - a[:2])
+        if min(u, v, 1 - u - v) >= -1e-9:
+            return a[2] + u * (b - a)[2] + v * (c - a)[2]
+    return 0.0
+
+
+def space_below(heights, pitch=1.0):
+    """Volume between the face and the relief: a prism a triangle."""
+    h = np.asarray(heights)
+    a, b, c, d = h[:-1, :-1], h[:-1, 1:], h[1:, :-1], h[1:, 1:]
+    return -((a + c + d) / 6 + (a + b + d) / 6).sum() * pitch**2
+
+
+def assert_solid(surface, heights):
+    vertices, faces = solid_above(surface, 1.0)
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    lid = surface.points()[surface.faces][:, :, :2]
+    u, v = lid[:, 1] - lid[:, 0], lid[:, 2] - lid[:, 0]
+    area = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
+    assert mesh.volume == pytest.approx(area + space_below(heights))
+    solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, faces.astype(np.uint64)))
+    assert solid.status() == manifold3d.Error.NoError
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(arrays(float, st.tuples(st.integers(2, 9), st.integers(2, 9)), elements=HEIGHTS))
+def test_without_a_bound_the_surface_is_the_relief(heights):
+    _, surface = surface_of(heights)
+    heights = np.where(heights > -1e-6, 0, heights)
+    if len(surface.faces):
+        assert_solid(surface, heights)
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(
+    arrays(float, (9, 9), elements=st.floats(-0.25, -0.125)),
+    st.sampled_from([0.02, 0.05, 0.1]),
+)
+def test_no_point_is_further_than_twice_the_bound(heights, bound):
+    relief, surface = surface_of(heights, bound)
+    rng = np.random.default_rng(0)
+    for x, y in 5 + 8 * rng.random((40, 2)):
+        gap = height_by_search(surface, x, y) - relief.height_at(x, y)
+        assert abs(gap) <= 2 * bound + 1e-9
+
+
+def test_a_flat_floor_needs_few_triangles():
+    h = np.zeros((49, 49))
+    h[16:33, 16:33] = -1.0
+    _, surface = surface_of(h)
+    # The floor is one block, its fan reached by the 64 nodes around it; the wall
+    # has 2 triangles at each of its 68 pixels but for two corners, which have one each.
+    wall = 2 * 4 * 16 + 2 * 1 + 2 * 2
+    assert len(surface.faces) == 64 + wall
+    assert_solid(surface, h)
+
+
+def test_a_plane_is_two_triangles():
+    rows, cols = np.mgrid[0:17, 0:17]
+    _, surface = surface_of(-0.5 - 0.01 * rows - 0.02 * cols, 1e-9)
+    assert len(surface.faces) == 2
+
+
+@pytest.mark.parametrize(("other", "touching"), [((4, 4), 1), ((2, 4), 1), ((4, 5), 0)])
+def test_figures_that_touch_at_a_node_are_parted(other, touching):
+    h = np.zeros((8, 8))
+    h[2, 2] = h[other] = -1.0
+    _, surface = surface_of(h)
+    assert len(surface.vertices) == 14 - touching
+    assert len(split_touching(surface).vertices) == 14
+    assert_solid(surface, h)
+
+
+def test_islands_and_holes_and_peaks_on_the_face():
+    h = np.full((14, 14), -1.0)
+    h[0] = h[-1] = h[:, 0] = h[:, -1] = 0.0
+    h[4:8, 4:8] = 0.0  # an island
+    h[5, 5] = -0.5  # a pit in it
+    h[10, 10] = 0.0  # a peak that just reaches the face
+    h[10, 3:6] = 0.0  # a ridge along it
+    _, surface = surface_of(h)
+    assert_solid(surface, h)
+
+
+def test_the_outline_lies_on_the_face(bumpy):
+    surface = triangulate(sink(bumpy, STOCK), 0.01)
+    rim = surface.vertices[outline(surface.faces).ravel()]
+    assert (rim[:, 2] == 0).all()
