@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from relieffab import profiles
+from relieffab.cutter import Cutter
 from relieffab.errors import FindingsError, InputError
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.program import Program
@@ -28,10 +29,13 @@ from relieffab.relief.solve import make_relief
 from relieffab.relief.store import grey, to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
+from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import Settings, plan
 
 Part = dict[str, Any]
+
+SCARAB_UP = "y"  # of the model carved where no file is named
 
 
 def stock_of(job: Job) -> Stock:
@@ -39,9 +43,42 @@ def stock_of(job: Job) -> Stock:
     return Stock(job.size[0], job.size[1], job.thickness)
 
 
+def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
+    """Return the cutters of roughing, finishing and lines."""
+    return profiles.cutter(job.rough), profiles.cutter(job.finish), profiles.cutter(job.lines)
+
+
+def carving_of(job: Job) -> Carving:
+    """Return how the relief is carved: nowhere narrower than the finest tip."""
+    return Carving(
+        depth=job.depth,
+        line_depth=job.line_depth,
+        form_length=job.form_length,
+        wall_angle=job.wall_angle,
+        fillet=profiles.cutter(job.lines).tip_radius,
+    )
+
+
+def check(job: Job) -> None:
+    """Refuse what can be seen to fail before any work is done.
+
+    Raises
+    ------
+    InputError
+        If a profile is unknown, or machine, cutters, stock and depth do not fit.
+    """
+    carving_of(job)
+    profiles.material(job.material)
+    cutters = cutters_of(job)
+    check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
+    if job.stepover is not None:
+        check_stepover(job.stepover, cutters[1])
+
+
 def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
     """Return the view a job asks for, and a note where the up axis had to be guessed."""
-    up = job.up or guess_up(mesh)
+    guessed = job.up is None and job.model is not None
+    up = guess_up(mesh) if guessed else job.up or SCARAB_UP
     azimuth, elevation = VIEWS[job.view]
     view = View(
         azimuth if job.azimuth is None else job.azimuth,
@@ -49,7 +86,7 @@ def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
         job.roll,
         up,
     )
-    return view, "" if job.up else f"up axis guessed: {up} (say --up to choose)"
+    return view, f"up axis guessed: {up} (say --up to choose)" if guessed else ""
 
 
 def model_part(mesh: Mesh, path: Path | None) -> Part:
@@ -93,14 +130,7 @@ def write_layers(layers: Layers, job: Job, folder: Path) -> None:
 
 def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple[Relief, Part]:
     """Solve for the relief; the part is report.json's `relief`."""
-    carving = Carving(
-        depth=job.depth,
-        line_depth=job.line_depth,
-        form_length=job.form_length,
-        wall_angle=job.wall_angle,
-        fillet=profiles.cutter(job.lines).tip_radius,
-    )
-    relief, solution = make_relief(layers, carving, progress=progress)
+    relief, solution = make_relief(layers, carving_of(job), progress=progress)
     return relief, {
         "file": "relief.tiff",
         "rows": relief.heights.shape[0],
@@ -152,13 +182,12 @@ def plan_paths(
     relief: Relief, strokes: Sequence[Stroke], job: Job, progress: Progress = silent
 ) -> tuple[Toolpath, ...]:
     """Plan the toolpaths of a job."""
-    cutters = profiles.cutter(job.rough), profiles.cutter(job.finish), profiles.cutter(job.lines)
     return plan(
         relief,
         strokes,
         profiles.machine(job.machine),
         profiles.material(job.material),
-        cutters=cutters,
+        cutters=cutters_of(job),
         stock=stock_of(job),
         settings=Settings(stepover=job.stepover),
         progress=progress,

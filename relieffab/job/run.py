@@ -89,6 +89,7 @@ def make(
         If the programs would not carve the relief.
     """
     job = job_of(settings)
+    chain.check(job)
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder) as scratch:
@@ -153,6 +154,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
 def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
     """Plan, write and judge the programs of a relief that lies in a folder, beside it."""
     job, report = job_of(settings), read_report(folder)
+    chain.check(job)
     relief = read_relief(folder / "relief.tiff")
     drawing = folder / "layers" / "lines.svg"
     if not drawing.is_file():

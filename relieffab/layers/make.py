@@ -1,13 +1,13 @@
 """Mesh and view to Layers: the first stage as one call."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.grid import Grid
 from relieffab.layers.mesh import Mesh
-from relieffab.layers.model import Layers
+from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.raster import rasterise
 from relieffab.layers.shading import default_lights, lambert, pixel_normals
 from relieffab.layers.strokes import draw_strokes, line_image
@@ -28,11 +28,14 @@ class Drawing:
         Forms smaller than this are smoothed away before lines are sought, mm.
     min_length : float
         Shorter lines are left out, mm.
+    secondary : float
+        Strength of suggestive contours against that of contours, 0 to 1.
     """
 
     width: float = 0.6
     detail: float = 1.2
-    min_length: float = 2.5
+    min_length: float = 3.0
+    secondary: float = 0.5
 
 
 def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> Layers:
@@ -66,6 +69,7 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
         detail=drawing.detail,
         min_length=drawing.min_length,
     )
+    strokes = tuple(_weighted(stroke, drawing.secondary) for stroke in strokes)
     return Layers(
         grid=grid,
         depth=np.where(mask, raster.depth, 0.0),
@@ -76,6 +80,12 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
         lines=line_image(strokes, grid, width=drawing.width),
         strokes=strokes,
     )
+
+
+def _weighted(stroke: Stroke, secondary: float) -> Stroke:
+    if stroke.kind != "suggestive":
+        return stroke
+    return replace(stroke, strength=secondary * stroke.strength)
 
 
 def make_layers(

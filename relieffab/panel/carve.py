@@ -6,17 +6,19 @@ import numpy as np
 from relieffab.errors import InputError, RelieffabError
 from relieffab.grid import Grid
 from relieffab.layers.raster import rasterise
-from relieffab.panel.clearance import CLEARANCE, clear_of_face
-from relieffab.panel.model import Floats, Ints, Panel, Surface
+from relieffab.panel.model import Floats, Ints, Panel, Sinking, Surface
 from relieffab.panel.simplify import deviation, simplify
 from relieffab.panel.sinking import sink
-from relieffab.panel.triangulate import edge_keys, has_repeats, solid_above, triangulate
+from relieffab.panel.space import CLEARANCE, clear_of_face, part_touching, solid_above
+from relieffab.panel.triangulate import edge_keys, has_repeats, triangulate
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
-# How far above the face the space that is taken away reaches, mm.
-HEADROOM = 1.0
+# Shares of the tolerance kept back for peaks, and for sheets, that must not touch.
+RESERVE = 0.02
+# Rounding of the modeller, mm: nearer to the face is the face.
+ROUNDING = 1e-7
 
 
 def checked(solid: manifold3d.Manifold, what: str) -> manifold3d.Manifold:
@@ -59,7 +61,7 @@ def carve(stock: Stock, surface: Surface) -> manifold3d.Manifold:
     RelieffabError
         If either, or what is left, is not a solid.
     """
-    space = _solid(*solid_above(surface, HEADROOM), "the space above the relief")
+    space = _solid(*solid_above(surface), "the space above the relief")
     return checked(slab(stock) - space, "the carved panel")
 
 
@@ -88,6 +90,7 @@ def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
 def _finish(solid: manifold3d.Manifold, relief: Relief, error: float) -> Panel:
     mesh = solid.to_mesh64()
     vertices = np.array(mesh.vert_properties[:, :3], np.float64)
+    vertices[np.abs(vertices[:, 2]) < ROUNDING, 2] = 0.0
     faces = np.array(mesh.tri_verts, np.int64)
     return Panel(
         vertices,
@@ -96,6 +99,18 @@ def _finish(solid: manifold3d.Manifold, relief: Relief, error: float) -> Panel:
         float(solid.volume()),
         max(error, largest_error(vertices, faces, relief)),
     )
+
+
+def _surface(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Surface, float]:
+    """Triangulate and simplify what is below the face; and its largest error, mm."""
+    reserve = RESERVE * tolerance
+    bound = tolerance - 2 * reserve
+    surface = triangulate(sinking, bound / 2)
+    surface = simplify(surface, sinking, bound, progress=progress)
+    surface = clear_of_face(surface, min(reserve, CLEARANCE))
+    steepest = max(-float(sinking.heights.min()), CLEARANCE) / sinking.grid.pitch
+    surface = part_touching(surface, min(reserve / steepest, CLEARANCE))
+    return surface, max(float(part.max()) for part in deviation(surface, sinking))
 
 
 def make_panel(
@@ -132,15 +147,10 @@ def make_panel(
             found=f"{tolerance:g} mm",
         )
     sinking = sink(relief, stock)
-    if sinking.empty:
-        return _finish(slab(stock), relief, 0.0)
-    clearance = min(CLEARANCE, tolerance / 20)
-    surface = triangulate(sinking, tolerance / 2 - clearance)
-    surface = simplify(surface, sinking, tolerance - 2 * clearance, progress=progress)
+    surface, error = _surface(sinking, tolerance, progress)
     progress("carve", 0, 1)
-    surface = clear_of_face(surface, clearance)
-    error = max(float(part.max()) for part in deviation(surface, sinking))
-    panel = _finish(carve(stock, surface), relief, error)
+    solid = carve(stock, surface) if len(surface.faces) else slab(stock)
+    panel = _finish(solid, relief, error)
     progress("carve", 1, 1)
     return accept(panel, tolerance)
 

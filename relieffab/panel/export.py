@@ -11,6 +11,7 @@ import trimesh
 
 from relieffab.errors import InputError, suggest
 from relieffab.panel.model import Panel
+from relieffab.panel.weld import weld
 
 # 3MF Core Specification 1.3: the package's parts and their relationship.
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -60,8 +61,9 @@ def _mesh(panel: Panel) -> trimesh.Trimesh:
 
 def write_stl(panel: Panel, path: Path) -> None:
     """Write a binary STL, mm, single precision as the format has it."""
+    mesh = trimesh.Trimesh(*weld(panel.vertices, panel.faces), process=False)
     with beside(Path(path)) as part:
-        _mesh(panel).export(part, file_type="stl")
+        mesh.export(part, file_type="stl")
 
 
 def _model_xml(panel: Panel, name: str) -> str:

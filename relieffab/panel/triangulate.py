@@ -1,4 +1,4 @@
-"""The relief's surface below the face as few exact triangles, and the solid above it.
+"""The relief's surface below the face as few exact triangles.
 
 A pixel needs its two triangles only where the relief bends.  Elsewhere square
 blocks of 2, 4, 8 ... pixels stand for many, a quadtree as in Samet (1990) with
@@ -15,8 +15,6 @@ than 2 `bound`, at and between the nodes.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from relieffab.panel.model import Floats, Ints, Sinking, Surface
 
@@ -141,57 +139,6 @@ def outline(faces: Ints) -> Ints:
     there, back = edge_keys(faces), edge_keys(faces, reverse=True)
     either = np.minimum(there, back)
     order = np.argsort(either)
-    fresh = np.concatenate([[True], np.diff(either[order]) != 0, [True]])
-    alone = there[order[fresh[1:] & fresh[:-1]]]
+    fresh = np.diff(either[order], prepend=-1) != 0
+    alone = there[order[fresh & np.append(fresh[1:], True)[: len(fresh)]]]
     return np.stack(np.divmod(alone, int(faces.max(initial=0)) + 1), axis=1)
-
-
-def split_touching(surface: Surface) -> Surface:
-    """Give each sheet that meets others at a vertex only a vertex of its own.
-
-    Two figures that touch at a corner share a node; walls raised from both
-    would share an edge, which no solid may.
-    """
-    faces, count = surface.faces, len(surface.faces)
-    start = np.arange(3 * count)
-    end = np.roll(start.reshape(count, 3), -1, axis=1).ravel()
-    key, opposite = edge_keys(faces), edge_keys(faces, reverse=True)
-    order = np.argsort(key)
-    mate = order[np.searchsorted(key, opposite, sorter=order).clip(max=len(key) - 1)]
-    met = key[mate] == opposite
-    # The corner where an edge starts is the corner where its mate ends.
-    a, b = start[met], end[mate[met]]
-    links = coo_array((np.ones(len(a), bool), (a, b)), shape=(3 * count, 3 * count))
-    total, sheet = connected_components(links, directed=False)
-    origin = np.empty(total, np.int64)
-    origin[sheet] = faces.ravel()
-    split = sheet.reshape(count, 3).astype(np.int64)
-    return Surface(surface.grid, surface.vertices[origin], split)
-
-
-def solid_above(surface: Surface, top: float) -> tuple[Floats, Ints]:
-    """Close the space between a surface and the plane at height `top`.
-
-    Parameters
-    ----------
-    surface : Surface
-    top : float
-        Above the face, mm.
-
-    Returns
-    -------
-    vertices : (2 v, 3) ndarray
-        mm.
-    faces : (f, 3) ndarray of int
-        Watertight, counter-clockwise seen from outside.
-    """
-    surface = split_touching(surface)
-    floor = surface.points()
-    lid = floor.copy()
-    lid[:, 2] = top
-    v = len(floor)
-    a, b = outline(surface.faces).T
-    walls = [np.stack([a, b, b + v], axis=1), np.stack([a, b + v, a + v], axis=1)]
-    # From inside the solid the surface is the floor: it turns its back to it.
-    shell = [surface.faces[:, ::-1], surface.faces + v, *walls]
-    return np.concatenate([floor, lid]), np.concatenate(shell)

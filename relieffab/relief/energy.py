@@ -34,8 +34,9 @@ class Terms:
     pitch : float
         mm.
     lights : (k, 3) ndarray
-    slope_weight : (n - 1, m - 1) ndarray
-        Of each pixel's slope row; 0 outside the figure and on occlusions.
+    depth_weight, line_weight : (n - 1, m - 1) ndarray
+        Of each pixel's slope rows; 0 outside the figure and on occlusions, and
+        that of lines away from them.
     slope : (2, n - 1, m - 1) ndarray
         Slopes asked for.
     light_weight : (n, m) ndarray
@@ -54,7 +55,8 @@ class Terms:
 
     pitch: float
     lights: Floats
-    slope_weight: Floats
+    depth_weight: Floats
+    line_weight: Floats
     slope: Floats
     light_weight: Floats
     radiance: Floats
@@ -103,18 +105,24 @@ def _residual(error, weight, pitch, rx, ry, sums):  # type: ignore[no-untyped-de
 
 
 @parallel_kernel
-def _pull_back(h, p, q, asked, twist_weight, slope_weight, rx, ry, dp, dq, pitch, gp, gq, gt, sums):  # type: ignore[no-untyped-def]
-    """Find the derivative of the energy by each pixel's slopes and twist; slope energy by row."""
+def _pull_back(  # type: ignore[no-untyped-def]
+    h, p, q, asked, twist_weight, depth_weight, line_weight, rx, ry, dp, dq, pitch, gp, gq, gt, sums
+):
+    """Find the derivative of the energy by each pixel's slopes and twist.
+
+    Depth and line energies come by row.
+    """
     rows, cols = p.shape
     for i in prange(rows):
-        total = 0.0
+        depth = line = 0.0
         for j in range(cols):
-            w = slope_weight[i, j]
+            w = depth_weight[i, j] + line_weight[i, j]
             ex, ey = p[i, j] - asked[0, i, j], q[i, j] - asked[1, i, j]
-            total += w * (ex * ex + ey * ey)
+            depth += depth_weight[i, j] * (ex * ex + ey * ey)
+            line += line_weight[i, j] * (ex * ex + ey * ey)
             twist = (h[i, j] - h[i, j + 1] - h[i + 1, j] + h[i + 1, j + 1]) / (2.0 * pitch)
             gt[i, j] = twist_weight[i, j] * twist
-            total += gt[i, j] * twist
+            depth += gt[i, j] * twist
             along, upward = w * ex, w * ey
             for k in range(len(rx)):
                 pull = (
@@ -130,7 +138,7 @@ def _pull_back(h, p, q, asked, twist_weight, slope_weight, rx, ry, dp, dq, pitch
                 along += pull * dp[k, i, j]
                 upward += pull * dq[k, i, j]
             gp[i, j], gq[i, j] = along, upward
-        sums[i] = total
+        sums[0, i], sums[1, i] = depth, line
 
 
 @parallel_kernel
@@ -155,7 +163,9 @@ def _gather(gp, gq, gt, h, form, form_weight, pitch, gradient, sums):  # type: i
 
 
 @parallel_kernel
-def _assemble(dp, dq, light_weight, slope_weight, twist_weight, form_weight, pitch, stencil):  # type: ignore[no-untyped-def] # noqa: PLR0912
+def _assemble(  # type: ignore[no-untyped-def] # noqa: PLR0912
+    dp, dq, light_weight, depth_weight, line_weight, twist_weight, form_weight, pitch, stencil
+):
     """Gauss-Newton operator as 25 couplings a node, laid out (row, coupling, column).
 
     A node's radiance rows touch the nodes one row off, so rows of one colour in
@@ -170,7 +180,7 @@ def _assemble(dp, dq, light_weight, slope_weight, twist_weight, form_weight, pit
                 continue
             for j in range(1, m - 1):
                 stencil[i, 12, j] += form_weight[i, j]
-                w, t = scale * slope_weight[i, j], scale * twist_weight[i, j]
+                w, t = scale * (depth_weight[i, j] + line_weight[i, j]), scale * twist_weight[i, j]
                 if w > 0.0 or t > 0.0:
                     for a in range(4):
                         for b in range(4):
@@ -209,7 +219,7 @@ class Linearisation:
     ----------
     value : float
     parts : dict of float
-        'slope', 'light' and 'form', adding up to `value`.
+        'depth', 'light', 'line' and 'form', adding up to `value`.
     gradient : (n, m) ndarray
         1/mm.
     derivatives : tuple of (k, n - 1, m - 1) ndarray
@@ -242,18 +252,18 @@ def linearise(terms: Terms, h: Floats) -> Linearisation:
     _radiance(h, terms.pitch, terms.lights, p, q, radiance, dp, dq)
     radiance -= terms.radiance
     rx, ry = np.zeros((2, lights, n, m))
-    sums = np.zeros((3, n))
+    sums = np.zeros((4, n))
     _residual(radiance, terms.light_weight, terms.pitch, rx, ry, sums[0])
     gp, gq, gt = np.empty((3, n - 1, m - 1))
     _pull_back(
-        h, p, q, terms.slope, terms.twist_weight, terms.slope_weight, rx, ry, dp, dq,
-        terms.pitch, gp, gq, gt, sums[1],
+        h, p, q, terms.slope, terms.twist_weight, terms.depth_weight, terms.line_weight, rx, ry,
+        dp, dq, terms.pitch, gp, gq, gt, sums[1:3],
     )  # fmt: skip
     gradient = np.zeros((n, m))
-    _gather(gp, gq, gt, h, terms.form, terms.form_weight, terms.pitch, gradient, sums[2])
-    light, slope, form = (float(row.sum()) for row in sums)
-    parts = {"slope": slope, "light": light, "form": form}
-    return Linearisation(light + slope + form, parts, gradient, (dp, dq))
+    _gather(gp, gq, gt, h, terms.form, terms.form_weight, terms.pitch, gradient, sums[3])
+    light, depth, line, form = (float(row.sum()) for row in sums)
+    parts = {"depth": depth, "light": light, "line": line, "form": form}
+    return Linearisation(light + depth + line + form, parts, gradient, (dp, dq))
 
 
 def operator(terms: Terms, linearisation: Linearisation) -> NDArray[np.float32]:
@@ -268,7 +278,7 @@ def operator(terms: Terms, linearisation: Linearisation) -> NDArray[np.float32]:
     stencil = np.zeros((n, 25, m), np.float32)
     dp, dq = linearisation.derivatives
     _assemble(
-        dp, dq, terms.light_weight, terms.slope_weight, terms.twist_weight, terms.form_weight,
-        terms.pitch, stencil,
+        dp, dq, terms.light_weight, terms.depth_weight, terms.line_weight, terms.twist_weight,
+        terms.form_weight, terms.pitch, stencil,
     )  # fmt: skip
     return stencil

@@ -27,7 +27,7 @@ class Solution:
     Parameters
     ----------
     energy : dict of float
-        'slope', 'light', 'form' and 'total', without unit.
+        'depth', 'light', 'line', 'form' and 'total', without unit.
     residual : float
         Norm of the projected gradient, relative to the first guess's.
     iterations : int

@@ -157,18 +157,20 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
     base = to_nodes(form(layers, carving.depth), mask.astype(float)) + cut
-    slope_weight = (carving.depth_weight + carving.line_weight * stencil) * sound / count
+    depth_weight = carving.depth_weight * sound / count
+    line_weight = carving.line_weight * stencil * sound / count
     light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
     corners = light_weight[:-1, :-1] + light_weight[:-1, 1:]
     corners += light_weight[1:, :-1] + light_weight[1:, 1:]
     return Terms(
         pitch=pitch,
         lights=layers.lights,
-        slope_weight=slope_weight,
+        depth_weight=depth_weight,
+        line_weight=line_weight,
         slope=compress(slope, mask) + cut_slope,
         light_weight=light_weight,
         radiance=layers.shading + _tilted(layers, cut_slope),
-        twist_weight=TWIST * (slope_weight + corners / (4 * pitch**2)),
+        twist_weight=TWIST * (depth_weight + line_weight + corners / (4 * pitch**2)),
         form_weight=carving.form_weight * figure / form_length**2 / count,
         form=np.clip(base, -carving.depth, 0.0) * figure,
         depth=carving.depth,

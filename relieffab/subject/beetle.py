@@ -23,7 +23,7 @@ def _elytra(p: Point) -> Field:
     x, z = (p.x - cx) / rx, np.maximum(p.z - cz, 0) / rz
     meridian = np.arctan2(x, z + 1e-6) / (np.pi / 2)
     girth = np.sqrt(np.clip(1 - ((p.y - cy) / ry) ** 2, 0, 1))
-    fade = np.clip((girth - 0.35) / 0.35, 0, 1) * np.clip((p.x - 3) / 2, 0, 1)
+    fade = np.clip((girth - 0.35) / 0.35, 0, 1) * np.clip((p.x - 4.3) / 1.2, 0, 1)
     furrow = 0.5 - 0.5 * np.cos(meridian * (2 * np.pi * STRIAE))
     seam = 0.9 * np.exp(-((p.x / 0.7) ** 2))
     return solid + 0.55 * fade * furrow**3 + seam

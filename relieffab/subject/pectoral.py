@@ -37,7 +37,7 @@ def scarab(*, cell: float = 0.28) -> Mesh:
     -------
     vertices : (v, 3) ndarray
         mm; X right, Y up, Z to the viewer, the flat back on Z = 0; some
-        112 x 82 x 16 mm, centred on X = Y = 0.
+        113 x 82 x 14 mm, centred on X = Y = 0.
     faces : (f, 3) ndarray of int64
         Counter-clockwise seen from outside; one closed body.
     """

@@ -26,10 +26,15 @@ def check(
             hint="another view, or a larger depth",
         )
     _check_stock(relief, stock, deepest)
-    _check_travel(machine, stock, deepest)
-    for cutter in cutters:
-        _check_cutter(cutter, stock, deepest)
+    check_tools(machine, cutters, stock, deepest)
     check_stepover(stepover, cutters[1])
+
+
+def check_tools(machine: Machine, cutters: Sequence[Cutter], stock: Stock, depth: float) -> None:
+    """Refuse a machine or cutters that do not fit the stock and the depth, mm."""
+    _check_travel(machine, stock, depth)
+    for cutter in cutters:
+        _check_cutter(cutter, stock, depth)
 
 
 def check_stepover(stepover: float, cutter: Cutter) -> None:

@@ -10,6 +10,7 @@ from relieffab.errors import InputError, RelieffabError
 from relieffab.grid import Grid
 from relieffab.panel.carve import accept, checked, is_watertight, largest_error, make_panel
 from relieffab.panel.model import Panel
+from relieffab.panel.weld import weld
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
@@ -82,6 +83,17 @@ def test_any_relief_gives_a_volume_within_tolerance(heights, rim, tolerance):
     if rim in (0.0, 0.9):
         whole = 3.0 * area - space_below(relief)
         assert panel.volume_mm3 == pytest.approx(whole, abs=1.01 * tolerance * area)
+
+
+def test_touching_pits_and_ridges_on_the_face_survive_single_precision(make_relief):
+    rng = np.random.default_rng(5)
+    stock = Stock(80, 60, 3)
+    h = np.where(rng.random((30, 40)) < 0.3, np.round(-4 * rng.random((30, 40))) / 2, 0.0)
+    panel = make_panel(make_relief(h, pitch=0.5, rim=8.0), stock)
+    assert_solid(panel, stock)
+    single = trimesh.Trimesh(*weld(panel.vertices, panel.faces), process=False)
+    assert single.is_volume
+    assert len(np.unique(single.vertices, axis=0)) == len(single.vertices)
 
 
 def test_nothing_below_the_face_leaves_the_slab(make_relief):

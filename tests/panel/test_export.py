@@ -16,7 +16,7 @@ def panel(bumpy):
     return make_panel(bumpy, Stock(26, 20, 6))
 
 
-def assert_same(mesh, panel, places=3):
+def assert_same(mesh, panel):
     assert mesh.is_watertight
     assert len(mesh.faces) == len(panel.faces)
     assert mesh.volume == pytest.approx(panel.volume_mm3, rel=1e-6)

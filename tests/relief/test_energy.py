@@ -22,7 +22,8 @@ def random_terms(rng, light=1.0):
     return Terms(
         pitch=PITCH,
         lights=default_lights(),
-        slope_weight=slope_weight,
+        depth_weight=0.75 * slope_weight,
+        line_weight=0.25 * slope_weight,
         slope=rng.normal(size=(2, *pixels)),
         light_weight=light * rng.random(SHAPE) * inner(SHAPE, 3),
         radiance=rng.random((2, *pixels)),
@@ -44,7 +45,7 @@ def slow_value(terms, h):
             a, b, c, d = h[i, j], h[i, j + 1], h[i + 1, j], h[i + 1, j + 1]
             p, q = (b + d - a - c) / two, (a + b - c - d) / two
             e = np.array([p, q]) - terms.slope[:, i, j]
-            total += terms.slope_weight[i, j] * e @ e
+            total += (terms.depth_weight + terms.line_weight)[i, j] * e @ e
             total += terms.twist_weight[i, j] * ((a - b - c + d) / two) ** 2
             normal = np.array([-p, -q, 1]) / np.sqrt(1 + p * p + q * q)
             radiance[:, i, j] = terms.lights @ normal - terms.radiance[:, i, j]
@@ -128,5 +129,5 @@ def test_a_checkerboard_costs_energy(setup):
     board = (-1.0) ** (i + j) * inner(SHAPE, 2)
     flat = Terms(**{**vars(terms), "slope": 0 * terms.slope, "form": 0 * terms.form})
     assert (
-        linearise(flat, board).parts["slope"] > 10 * linearise(flat, 0 * board).parts["slope"] + 1
+        linearise(flat, board).parts["depth"] > 10 * linearise(flat, 0 * board).parts["depth"] + 1
     )

@@ -35,13 +35,13 @@ def test_it_is_one_body(mesh):
 def test_faces_look_outward(mesh):
     vertices, faces = mesh
     a, b, c = (vertices[faces[:, k]] for k in range(3))
-    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(26_400, rel=0.02)
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(31_300, rel=0.02)
 
 
 def test_it_has_its_stated_size(mesh):
     vertices, _ = mesh
     low, high = vertices.min(axis=0), vertices.max(axis=0)
-    np.testing.assert_allclose(high - low, (112.8, 81.8, 15.4), atol=0.5)
+    np.testing.assert_allclose(high - low, (113.0, 81.8, 13.6), atol=0.5)
     np.testing.assert_allclose(low[0], -high[0], atol=1e-3)
     assert low[2] == pytest.approx(0, abs=1e-3)
 
@@ -53,10 +53,10 @@ def test_the_body_stands_above_the_wings_and_they_above_the_back(mesh):
         near = np.hypot(vertices[:, 0] - x, vertices[:, 1] - y) < r
         return vertices[near, 2].max()
 
-    assert top(3, -8, 3) > 14
-    assert top(0, 30.2, 3) == pytest.approx(7.8, abs=0.2)
-    assert 6 < top(24, -3, 4) < 11
-    assert 2.5 < top(51, 38, 4) < 4.5
+    assert top(3, -8, 3) > 12.5
+    assert top(0, 30.2, 3) == pytest.approx(10.2, abs=0.2)
+    assert 9 < top(24, -3, 4) < 12
+    assert 6.5 < top(51, 38, 4) < 8.5
 
 
 def test_it_is_its_own_mirror_image(mesh):

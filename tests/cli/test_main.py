@@ -1,0 +1,248 @@
+import json
+import re
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+
+from relieffab.cli.main import run
+
+SMALL = ["--size", "40x30mm", "--resolution", "160x120", "--depth", "1.5mm", "--margin", "3mm"]
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    v = np.array(ball.vertices) * [3, 2, 1.5]
+    v *= 1 + 0.05 * np.sin(5 * v[:, :1]) * np.sin(4 * v[:, 1:2])
+    path = tmp_path_factory.mktemp("model") / "ball.obj"
+    trimesh.Trimesh(v, ball.faces, process=False).export(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def made(model, tmp_path_factory):
+    """The folder that make left for a small job."""
+    folder = tmp_path_factory.mktemp("make") / "job"
+    assert run(["make", str(model), *SMALL, "-o", str(folder)]) == 0
+    return folder
+
+
+def test_make_leaves_exactly_the_files_of_a_job(made):
+    found = sorted(str(p.relative_to(made)) for p in made.rglob("*") if p.is_file())
+    assert found == [
+        "01-rough.nc",
+        "02-finish.nc",
+        "03-lines.nc",
+        "layers/depth.png",
+        "layers/lambert.png",
+        "layers/lines.png",
+        "layers/lines.svg",
+        "panel.3mf",
+        "panel.stl",
+        "preview.png",
+        "relief.png",
+        "relief.tiff",
+        "report.html",
+        "report.json",
+        "stock.step",
+    ]
+    assert not [p for p in made.parent.iterdir() if p.name.startswith(".")]
+
+
+def test_the_report_has_schema_1(made):
+    report = json.loads((made / "report.json").read_text())
+    assert report["schema"] == 1
+    assert set(report["view"]) == {"azimuth_deg", "elevation_deg", "roll_deg", "up", "matrix"}
+    assert set(report["relief"]) >= {
+        "file", "rows", "cols", "pitch_mm", "origin_mm", "depth_mm", "energy", "iterations",
+        "seconds",
+    }  # fmt: skip
+    assert set(report["relief"]["energy"]) == {"depth", "light", "line", "form", "total"}
+    assert set(report["panel"]) >= {
+        "file", "triangles", "watertight", "volume_mm3", "max_error_mm",
+    }  # fmt: skip
+    for program in report["programs"]:
+        assert set(program) >= {"file", "cutter", "lines", "seconds", "bounds_mm"}
+    assert set(report["verification"]) >= {
+        "gouge_mm", "excess_p99_mm", "within_tolerance", "tolerance_mm", "ok",
+    }  # fmt: skip
+    assert report["panel"]["watertight"]
+    assert report["panel"]["max_error_mm"] <= 0.02
+    assert report["verification"]["ok"]
+    assert report["verification"]["gouge_mm"] <= 0.02
+    assert report["verification"]["within_tolerance"] >= 0.95
+
+
+def test_the_panel_is_the_slab_less_the_relief(made):
+    from relieffab.relief.store import read_relief
+
+    report = json.loads((made / "report.json").read_text())
+    relief = read_relief(made / "relief.tiff")
+    h = relief.heights
+    # Two triangles a pixel: the mean of their corners times half a pixel each.
+    cells = (2 * h[:-1, :-1] + h[1:, :-1] + h[:-1, 1:] + 2 * h[1:, 1:]) / 6
+    volume = 40 * 30 * 12 + cells.sum() * relief.grid.pitch**2
+    assert report["panel"]["volume_mm3"] == pytest.approx(volume, rel=1e-3)
+    solid = trimesh.load_mesh(made / "panel.stl")
+    assert solid.is_volume
+    assert solid.volume == pytest.approx(volume, rel=1e-3)
+
+
+def test_stage_by_stage_gives_the_same_programs(made, model, tmp_path, capsys):
+    folder = tmp_path / "job"
+    assert run(["relief", str(model), *SMALL, "-o", str(folder)]) == 0
+    assert not (folder / "panel.stl").exists()
+    assert run(["panel", str(folder)]) == 0
+    assert run(["toolpath", str(folder)]) == 0
+    assert run(["verify", str(folder)]) == 0
+    capsys.readouterr()
+    for name in ("01-rough.nc", "02-finish.nc", "03-lines.nc"):
+        ours = [x for x in (folder / name).read_text().splitlines() if not x.startswith("(")]
+        theirs = [x for x in (made / name).read_text().splitlines() if not x.startswith("(")]
+        assert len(ours) == pytest.approx(len(theirs), rel=0.02)
+
+
+def test_a_program_that_was_changed_is_judged(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    lines = (folder / "02-finish.nc").read_text().splitlines()
+    depths = {k: re.search(r"Z(-[0-9.]+)", line) for k, line in enumerate(lines) if "(" not in line}
+    depth, place = min((float(found[1]), k) for k, found in depths.items() if found)
+    lines.insert(place + 1, f"G1 Z{depth - 0.5:.3f} F100")
+    (folder / "02-finish.nc").write_text("\n".join(lines) + "\n")
+    assert run(["verify", str(folder)]) == 1
+    assert "DOES NOT carve" in capsys.readouterr().out
+
+
+def test_layers_alone(model, tmp_path):
+    folder = tmp_path / "job"
+    assert run(["layers", str(model), *SMALL, "-o", str(folder)]) == 0
+    assert (folder / "layers" / "lines.svg").is_file()
+    assert not (folder / "relief.tiff").exists()
+
+
+def test_a_job_file_makes_a_job(model, tmp_path, capsys):
+    job = tmp_path / "job.toml"
+    assert run(["init", str(job)]) == 0
+    text = job.read_text().replace('# model = ""', f'model = "{model}"')
+    text = text.replace('size = "120x90mm"', 'size = "4x3cm"')
+    text = text.replace('resolution = "1024x768"', 'resolution = "160x120"')
+    job.write_text(text.replace('margin = "6mm"', 'margin = "3mm"'))
+    assert run(["layers", str(job), "-o", str(tmp_path / "out")]) == 0
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["model"]["name"] == "ball.obj"
+    assert report["settings"]["size"] == "4x3cm"
+    assert run(["init", str(job)]) == 2
+
+
+def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("RELIEFFAB_DEPTH", "0.1in")
+    monkeypatch.setenv("RELIEFFAB_MARGIN", "9mm")
+    (tmp_path / "job.toml").write_text('margin = "1mm"\nview = "back"\ndepth = 3\n')
+    arguments = ["make", str(tmp_path / "job.toml"), "--margin", "2mm", "-o", "x", "--json"]
+    assert run([*arguments, "--show-config"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert shown["margin"] == {"value": "2mm", "origin": "flag"}
+    assert shown["depth"] == {"value": "0.1in", "origin": "RELIEFFAB_DEPTH"}
+    assert shown["view"] == {"value": "back", "origin": str(tmp_path / "job.toml")}
+    assert shown["material"]["origin"] == "default"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--size", "0x90mm"], "size"),
+        (["--size", "5000x4000mm"], "travel"),
+        (["--size", "120mm"], "width x height"),
+        (["--size", "120x90furlong"], "unknown unit"),
+        (["--depth", "0"], "more than 0"),
+        (["--depth", "-1mm"], "more than 0"),
+        (["--depth", "nan"], "not a length"),
+        (["--depth", "30mm", "--thickness", "12mm"], "through the stock"),
+        (["--depth", "25mm", "--thickness", "40mm"], "flute"),
+        (["--machine", "3018-provr"], "did you mean 3018-prover"),
+        (["--material", "soft-wood"], "did you mean softwood"),
+        (["--finish", "ball-2"], "ball-1"),
+        (["--view", "frnt"], "did you mean front"),
+        (["--margin", "45mm"], "margin"),
+        (["--resolution", "1024"], "1024x768"),
+        (["--resolution", "4x4"], "16 to 16384"),
+        (["--stepover", "9mm"], "stepover"),
+        (["--stepover", "0"], "more than 0"),
+        (["--up", "x"], "y or z"),
+        (["--wall-angle", "95"], "wall"),
+    ],
+)
+def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):
+    folder = tmp_path / "out"
+    small = [] if "--size" in arguments or "--margin" in arguments else SMALL
+    kept = [x for x in small if x not in arguments]
+    if "--depth" in arguments and kept:
+        at = small.index("--depth")
+        kept = small[:at] + small[at + 2 :]
+    if "--resolution" in arguments:
+        at = small.index("--resolution")
+        kept = small[:at] + small[at + 2 :]
+    if "--size" in arguments or "--margin" in arguments:
+        kept = ["--resolution", "160x120"]
+    assert run(["make", str(model), *kept, *arguments, "-o", str(folder)]) == 2
+    told = capsys.readouterr().err
+    assert words in told
+    assert "Traceback" not in told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_holds_a_job_is_left_alone(made, model, capsys):
+    before = (made / "report.json").read_bytes()
+    assert run(["make", str(model), *SMALL, "-o", str(made)]) == 2
+    assert "already holds a job" in capsys.readouterr().err
+    assert (made / "report.json").read_bytes() == before
+
+
+def test_an_output_that_is_a_file_is_refused(model, tmp_path, capsys):
+    (tmp_path / "out").write_text("mine")
+    assert run(["make", str(model), *SMALL, "-o", str(tmp_path / "out")]) == 2
+    assert (tmp_path / "out").read_text() == "mine"
+
+
+def test_unknown_commands_and_flags_are_usage_errors(capsys):
+    assert run(["carve"]) == 2
+    assert run(["make", "x.stl", "-o", "y", "--siez", "3"]) == 2
+    assert run(["make"]) == 2
+
+
+def test_a_folder_without_a_job_is_told(tmp_path, capsys):
+    for command in ("panel", "toolpath", "verify"):
+        assert run([command, str(tmp_path)]) == 2
+        assert "holds no job" in capsys.readouterr().err
+
+
+def test_a_program_runs_on_the_simulated_machine(made, capsys):
+    assert run(["send", str(made / "03-lines.nc"), "--port", "sim://?speed=max", "--json"]) == 0
+    sent = json.loads(capsys.readouterr().out)
+    program = json.loads((made / "report.json").read_text())["programs"][2]
+    assert sent["cut_mm"] == pytest.approx(program["cut_mm"], rel=0.01)
+
+
+def test_a_port_that_is_not_there_is_the_machines_fault(made, capsys):
+    assert run(["send", str(made / "03-lines.nc"), "--port", "/dev/ttyNOWHERE"]) == 3
+
+
+def test_machines_are_listed(capsys):
+    assert run(["machines"]) == 0
+    assert "3018-prover" in capsys.readouterr().out
+    assert run(["machines", "cutters", "tapered-ball-1", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["tip_diameter"] == 1.0
+
+
+def test_help_loads_nothing_heavy():
+    code = (
+        "import sys; from relieffab.cli.main import run; run(['--help']);"
+        "bad = {'numpy', 'numba', 'trimesh', 'scipy', 'cadquery'} & set(sys.modules);"
+        "sys.exit(repr(bad) if bad else 0)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
