@@ -59,8 +59,9 @@ def _fill(col, row, z, faces, depth, triangle):  # type: ignore[no-untyped-def]
                 wa = sign * ((xb - j) * (yc - i) - (xc - j) * (yb - i))
                 wb = sign * ((xc - j) * (ya - i) - (xa - j) * (yc - i))
                 wc = sign * ((xa - j) * (yb - i) - (xb - j) * (ya - i))
-                if wa >= 0.0 and wb >= 0.0 and wc >= 0.0:
-                    near = (wa * z[a] + wb * z[b] + wc * z[c]) / (wa + wb + wc)
+                total = wa + wb + wc
+                if wa >= 0.0 and wb >= 0.0 and wc >= 0.0 and total > 0.0:
+                    near = (wa * z[a] + wb * z[b] + wc * z[c]) / total
                     if near > depth[i, j]:
                         depth[i, j] = near
                         triangle[i, j] = t

@@ -92,7 +92,7 @@ def occlusions(layers: Layers, v: Floats) -> tuple[Bools, Bools]:
     return across, down
 
 
-def form(layers: Layers, depth: float, *, headroom: float = 0.25, evenness: float = 0.5) -> Floats:
+def form(layers: Layers, span: tuple[float, float], *, evenness: float = 0.5) -> Floats:
     """Compress the depth range monotonically, so that the depth order stays whole.
 
     Half linear (Cignoni 1997), half equalised: a far limb does not take the
@@ -101,26 +101,23 @@ def form(layers: Layers, depth: float, *, headroom: float = 0.25, evenness: floa
     Parameters
     ----------
     layers : Layers
-    depth : float
-        Of the relief, mm.
-    headroom : float
-        Share of the depth kept free above the nearest form for detail to rise into.
+    span : tuple of float
+        Heights of the farthest and the nearest point, mm.
     evenness : float
         Weight of equalisation, 0 to 1.
 
     Returns
     -------
     (rows, cols) ndarray
-        From -depth (farthest) to -headroom depth (nearest) inside the figure,
-        0 outside, mm.
+        mm; 0 outside the figure.
     """
     seen = layers.depth[layers.mask]
     low, high = float(seen.min()), float(seen.max())
     if high <= low:
-        return np.where(layers.mask, -headroom * depth, 0.0)
+        return np.where(layers.mask, span[1], 0.0)
     share, edges = np.histogram(seen, 256, (low, high))
     rank = np.concatenate([[0.0], np.cumsum(share) / share.sum()])
     nearness = (layers.depth - low) / (high - low)
     even = np.interp(layers.depth, edges, rank)
     level = (1.0 - evenness) * nearness + evenness * even
-    return np.where(layers.mask, -depth + (1.0 - headroom) * depth * level, 0.0)
+    return np.where(layers.mask, span[0] + (span[1] - span[0]) * level, 0.0)

@@ -41,9 +41,12 @@ def wall(mask: Bools, pitch: float, angle: float) -> Floats:
     Returns
     -------
     (rows + 1, cols + 1) ndarray
-        mm, 0 at the edge and outside.
+        mm, 0 at the edge and outside.  The upper corner is eased over two pixels,
+        so that a slanted edge does not show the lattice's steps.
     """
-    return -tan(radians(angle)) * pitch * np.maximum(inward_distance(mask), 0.0)
+    inside = np.maximum(inward_distance(mask), 0.0)
+    eased = np.where(inside < 2.0, inside**2 / 4.0, inside - 1.0)
+    return -tan(radians(angle)) * pitch * eased
 
 
 def fill(heights: Floats, pitch: float, radius: float) -> Floats:

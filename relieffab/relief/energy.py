@@ -49,8 +49,8 @@ class Terms:
         1/mm²; positive on every node of the figure, 0 elsewhere.
     form : (n, m) ndarray
         mm.
-    depth : float
-        The lower bound of heights is -depth, the upper one 0, mm.
+    bounds : tuple of float
+        Lowest and highest height allowed, mm; infinite for none.
     """
 
     pitch: float
@@ -63,7 +63,7 @@ class Terms:
     twist_weight: Floats
     form_weight: Floats
     form: Floats
-    depth: float
+    bounds: tuple[float, float]
 
 
 @parallel_kernel

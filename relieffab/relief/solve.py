@@ -17,7 +17,9 @@ from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]
 
-COARSEST = 64  # rows or columns of pixels below which no coarser grid helps
+COARSEST = 128  # rows or columns of pixels below which no coarser grid helps
+FITTING = 3  # rounds in which the form's span is fitted
+OUTSIDE = (0.5, 99.9)  # percentiles of the heights that have to lie within the bounds
 
 
 @dataclass(frozen=True)
@@ -42,10 +44,10 @@ class Solution:
     inner: int
 
 
-def projected_gradient(gradient: Floats, h: Floats, depth: float) -> Floats:
+def projected_gradient(gradient: Floats, h: Floats, bounds: tuple[float, float]) -> Floats:
     """Drop the components that only push against a bound."""
-    at_low = (h <= -depth) & (gradient > 0)
-    at_high = (h >= 0) & (gradient < 0)
+    at_low = (h <= bounds[0]) & (gradient > 0)
+    at_high = (h >= bounds[1]) & (gradient < 0)
     return np.where(at_low | at_high, 0.0, gradient)
 
 
@@ -75,12 +77,12 @@ def descend(
     """
     figure = terms.form_weight > 0
     here = linearise(terms, h)
-    first = norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.depth)))
+    first = norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.bounds)))
     inner = iteration = 0
     while iteration < most and norm > tolerance * first and first > 0:
         report("relief", iteration, most)
-        pull = projected_gradient(here.gradient, h, terms.depth)
-        at_bound = (h <= -terms.depth) | (h >= 0)
+        pull = projected_gradient(here.gradient, h, terms.bounds)
+        at_bound = (h <= terms.bounds[0]) | (h >= terms.bounds[1])
         free = figure & ~(at_bound & (pull == 0))
         levels = build(operator(terms, here), free)
         forcing = min(0.1, max(0.3 * tolerance, 0.3 * norm / first))
@@ -88,7 +90,7 @@ def descend(
         inner += used
         size, there, new = 1.0, here, h
         while size > 1e-3:
-            new = np.clip(h + size * step, -terms.depth, 0.0)
+            new = np.clip(h + size * step, *terms.bounds)
             there = linearise(terms, new)
             if there.value < here.value:
                 break
@@ -96,25 +98,43 @@ def descend(
         else:
             break
         h, here = new, there
-        norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.depth)))
+        norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.bounds)))
         iteration += 1
     energy = {**here.parts, "total": here.value}
     return h, Solution(energy, norm / first if first > 0 else 0.0, iteration, inner)
 
 
-def _solve_on(
-    layers: Layers, carving: Carving, tolerance: float, report: Progress
-) -> tuple[Floats, Solution]:
-    """Heights on all nodes of the layers' grid, coarser grids first."""
-    figure, place = cropped(layers)
-    terms = terms_of(figure, carving)
-    guess = terms.form
-    if min(figure.grid.shape) > COARSEST:
-        coarse, _ = _solve_on(halve(layers), carving, max(tolerance, 1e-2), silent)
-        guess = place.take(refine(coarse, layers.grid.node_shape))
-    guess = np.clip(guess, -terms.depth, 0.0) * (terms.form_weight > 0)
-    heights, solution = descend(terms, guess, tolerance=tolerance, most=12, report=report)
-    return place.put(heights, layers.grid.node_shape), solution
+def fit(layers: Layers, carving: Carving) -> tuple[float, float]:
+    """Choose the form's span so that the whole relief just fits its depth.
+
+    Detail rises above the form and cuts below it, by how much only solving
+    tells: solved without bounds, and the span's ends moved by what sticks out or
+    is left unused, the wall at the edge counted in.  Where that cannot be, the top
+    stays whole, and the form keeps a quarter of the depth.
+
+    Parameters
+    ----------
+    layers : Layers
+        A coarse grid does.
+    carving : Carving
+
+    Returns
+    -------
+    tuple of float
+        Heights of the form's farthest and nearest point, mm.
+    """
+    figure, _ = cropped(layers)
+    edge = wall(figure.mask, figure.pitch, carving.wall_angle)
+    low, high = -carving.depth, -0.25 * carving.depth
+    for _ in range(FITTING):
+        terms = terms_of(figure, carving, (low, high), (-np.inf, np.inf))
+        heights, _ = descend(terms, terms.form, tolerance=1e-2, most=12)
+        within = terms.form_weight > 0
+        seen = np.maximum(heights, edge)[within]
+        bottom, top = np.percentile(seen, OUTSIDE[0]), np.percentile(heights[within], OUTSIDE[1])
+        high -= top
+        low = min(low - carving.depth - bottom, high - 0.25 * carving.depth)
+    return float(low), float(high)
 
 
 def make_relief(
@@ -141,7 +161,27 @@ def make_relief(
     solution : Solution
     """
     carving = carving or Carving()
-    heights, solution = _solve_on(layers, carving, tolerance, progress)
+    levels = [layers]
+    while min(cropped(levels[-1])[0].grid.shape) > COARSEST:
+        levels.append(halve(levels[-1]))
+    span = fit(levels[-1], carving)
+    heights = np.zeros(0)
+    for level in reversed(levels):
+        part, place = cropped(level)
+        terms = terms_of(part, carving, span, (-carving.depth, 0.0))
+        guess = terms.form
+        if heights.size:
+            guess = place.take(refine(heights, level.grid.node_shape))
+        guess = np.clip(guess, *terms.bounds) * (terms.form_weight > 0)
+        finest = level is layers
+        solved, solution = descend(
+            terms,
+            guess,
+            tolerance=tolerance if finest else max(tolerance, 1e-2),
+            most=12,
+            report=progress if finest else silent,
+        )
+        heights = place.put(solved, level.grid.node_shape)
     figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
     heights[figure] -= heights[figure].max()
     heights = np.maximum(heights, wall(layers.mask, layers.pitch, carving.wall_angle))

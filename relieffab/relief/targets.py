@@ -125,7 +125,9 @@ def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
     return whole
 
 
-def terms_of(layers: Layers, carving: Carving) -> Terms:
+def terms_of(
+    layers: Layers, carving: Carving, span: tuple[float, float], bounds: tuple[float, float]
+) -> Terms:
     """Put the energy's terms together.
 
     Parameters
@@ -133,6 +135,10 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
     layers : Layers
         Its figure at least three pixels from the edge of its grid.
     carving : Carving
+    span : tuple of float
+        Heights of the form's farthest and nearest point, mm.
+    bounds : tuple of float
+        Lowest and highest height allowed, mm.
 
     Returns
     -------
@@ -156,7 +162,7 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
     count = int(mask.sum())
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
-    base = to_nodes(form(layers, carving.depth), mask.astype(float)) + cut
+    base = to_nodes(form(layers, span), mask.astype(float)) + cut
     depth_weight = carving.depth_weight * sound / count
     line_weight = carving.line_weight * stencil * sound / count
     light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
@@ -172,8 +178,8 @@ def terms_of(layers: Layers, carving: Carving) -> Terms:
         radiance=layers.shading + _tilted(layers, cut_slope),
         twist_weight=TWIST * (depth_weight + line_weight + corners / (4 * pitch**2)),
         form_weight=carving.form_weight * figure / form_length**2 / count,
-        form=np.clip(base, -carving.depth, 0.0) * figure,
-        depth=carving.depth,
+        form=base * figure,
+        bounds=bounds,
     )
 
 

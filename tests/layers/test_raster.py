@@ -66,3 +66,13 @@ def test_values_are_carried_linearly():
     got = interpolate(raster, vertices, faces, vertices, GRID)
     np.testing.assert_allclose(got[..., 2], raster.depth, atol=1e-12)
     np.testing.assert_allclose(got[3, 5, :2], GRID.to_xy(3.5, 5.5), atol=1e-12)
+
+
+def test_a_sliver_through_a_centre_is_no_division_by_zero():
+    # Its area is so small that the edge functions at the centre round to 0.
+    y = GRID.to_xy(3.5, 0.0)[1]
+    vertices = np.array([[0.0, y, 0], [9.0, y, 0], [4.5, y + 1e-17, 0], [4.5, y + 4e-16, 1]])
+    faces = np.array([[0, 1, 2], [0, 1, 3]])
+    assert np.isfinite(
+        rasterise(vertices, faces, GRID).depth[rasterise(vertices, faces, GRID).mask]
+    ).all()

@@ -8,6 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from relieffab.errors import InputError, RelieffabError
 from relieffab.grid import Grid
+from relieffab.panel import carve as module
 from relieffab.panel.carve import accept, checked, is_watertight, largest_error, make_panel
 from relieffab.panel.model import Panel
 from relieffab.panel.weld import weld
@@ -96,6 +97,21 @@ def test_touching_pits_and_ridges_on_the_face_survive_single_precision(make_reli
     assert len(np.unique(single.vertices, axis=0)) == len(single.vertices)
 
 
+@pytest.mark.parametrize("rim", [0.7, 12.3])
+def test_noise_of_pits_leaves_the_face_flat_and_nothing_without_width(make_relief, rim):
+    rng = np.random.default_rng(1)
+    pitch = 1.8341589
+    for _ in range(40):
+        rows, cols = rng.integers(4, 14, 2)
+        h = -(rng.random((rows + 1, cols + 1)) < 0.5).astype(float)
+        size = np.array([cols, rows]) * pitch + 2 * rim * pitch
+        panel = make_panel(make_relief(h, pitch, rim * pitch), Stock(*size, 3), tolerance=0.01)
+        z = panel.vertices[:, 2]
+        assert not ((z > -1e-7) & (z != 0)).any()
+        single = trimesh.Trimesh(*weld(panel.vertices, panel.faces), process=False)
+        assert single.is_volume
+
+
 def test_nothing_below_the_face_leaves_the_slab(make_relief):
     stock = Stock(12, 10, 3)
     panel = make_panel(make_relief(np.zeros((5, 6))), stock)
@@ -155,6 +171,13 @@ def test_the_error_is_measured_on_the_panel(bumpy):
     lifted = panel.vertices + np.where(pit, 0.5, 0.0)[:, None] * [0, 0, 1]
     worst = largest_error(lifted, panel.faces, bumpy)
     assert worst == pytest.approx(0.5, abs=0.02)
+
+
+def test_rounding_next_to_the_face_is_taken_off(make_relief):
+    stock = Stock(12, 10, 3)
+    sunk = module.slab(stock).translate((0, 0, -1e-12))
+    panel = module._finish(sunk, make_relief(np.zeros((3, 3))), 0.0)
+    assert panel.vertices[:, 2].max() == 0.0
 
 
 def test_progress_names_the_stages(bumpy):

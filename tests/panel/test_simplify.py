@@ -93,6 +93,25 @@ def test_a_fold_is_seen(surface):
     assert np.flatnonzero(found).tolist() == [7]
 
 
+def test_a_fold_counts_as_out_of_tolerance(surface, sinking):
+    faces = surface.faces.copy()
+    faces[7] = faces[7, ::-1]
+    turned = Surface(surface.grid, surface.vertices, faces)
+    assert worst(turned, sinking) <= TOLERANCE
+    row, col = module._node_of(surface, np.arange(len(faces)) == 7)
+    out = module._out_of_tolerance(turned, sinking, TOLERANCE)
+    assert np.argwhere(out).tolist() == [[row[0], col[0]]]
+
+
+def test_nothing_rises_above_the_face(make_relief):
+    y, x = np.mgrid[-20:21, -20:21] * 0.25
+    h = np.where(np.hypot(x, y) < 4.5, -0.0005 - 0.01 * (x**2 + y**2), 0.0)
+    dome = triangulate(sink(make_relief(h, pitch=0.25), STOCK), 0.0)
+    found = module._collapse(dome, np.zeros(len(dome.faces), bool), 0.4)
+    assert len(found.faces) < 0.7 * len(dome.faces)
+    assert found.vertices[:, 2].max() <= 0
+
+
 def test_it_says_how_far_it_is(surface, sinking):
     calls = []
     simplify(surface, sinking, TOLERANCE, progress=lambda *step: calls.append(step))

@@ -21,7 +21,7 @@ def surface_of(heights):
     rows, cols = heights.shape[0] - 1, heights.shape[1] - 1
     grid = Grid(rows, cols, 1.0, (5.0, 5.0 + rows))
     relief = Relief(grid, heights, np.ones((rows, cols), bool), 2.0)
-    return None, triangulate(sink(relief, Stock(100, 100, 10)), 0.0)
+    return triangulate(sink(relief, Stock(100, 100, 10)), 0.0)
 
 
 def space_below(heights, pitch=1.0):
@@ -48,7 +48,7 @@ def assert_solid(surface, heights, gap=1e-6):
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(arrays(float, st.tuples(st.integers(2, 9), st.integers(2, 9)), elements=HEIGHTS))
 def test_any_relief_closes_to_a_solid(heights):
-    _, surface = surface_of(heights)
+    surface = surface_of(heights)
     if (heights < -1e-6).any():
         assert_solid(surface, heights)
 
@@ -57,7 +57,7 @@ def test_any_relief_closes_to_a_solid(heights):
 def test_figures_that_touch_at_a_node_are_parted(other, touching):
     h = np.zeros((8, 8))
     h[2, 2] = h[other] = -1.0
-    _, surface = surface_of(h)
+    surface = surface_of(h)
     assert len(surface.vertices) == 14 - touching
     parted = part_touching(surface, 1e-3)
     assert len(parted.vertices) == 14
@@ -73,7 +73,7 @@ def test_islands_and_holes_and_peaks_on_the_face():
     h[5, 5] = -0.5  # a pit in it
     h[10, 10] = 0.0  # a peak that just reaches the face
     h[10, 3:6] = 0.0  # a ridge along it
-    _, surface = surface_of(h)
+    surface = surface_of(h)
     assert_solid(surface, h)
 
 
@@ -81,7 +81,7 @@ def test_a_peak_and_a_ridge_are_lowered():
     h = np.full((5, 7), -1.0)
     h[2, 3] = 0.0  # a peak
     h[:3, 5] = 0.0  # a ridge from the grid's border inwards
-    _, surface = surface_of(h)
+    surface = surface_of(h)
     cleared = clear_of_face(surface, 1e-3)
     on_face = set(np.flatnonzero(cleared.vertices[:, 2] == 0).tolist())
     assert on_face <= set(outline(cleared.faces).ravel().tolist())
@@ -91,7 +91,7 @@ def test_a_peak_and_a_ridge_are_lowered():
 def test_a_ridge_between_two_outlines_is_split():
     h = np.zeros((4, 4))
     h[1, 2] = h[2, 1] = -1.5
-    _, surface = surface_of(h)
+    surface = surface_of(h)
     cleared = clear_of_face(surface, 1e-3)
     assert len(cleared.faces) == len(surface.faces) + 2
     assert cleared.vertices[-1].tolist() == [1.5, -1.5, -1e-3]
@@ -99,5 +99,5 @@ def test_a_ridge_between_two_outlines_is_split():
 
 def test_what_lies_on_the_face_is_left_out():
     h = np.full((4, 4), -1e-4)
-    _, surface = surface_of(h)
+    surface = surface_of(h)
     assert len(clear_of_face(surface, 1e-3).faces) == 0

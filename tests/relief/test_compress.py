@@ -71,7 +71,7 @@ def test_form_keeps_the_depth_order_and_its_room():
     layers = plane_layers(0.1, 0.2)
     depth = rng.gamma(1.0, 5.0, layers.grid.shape)
     uneven = Layers(**{**vars(layers), "depth": depth})
-    f = form(uneven, 4.0, headroom=0.25)
+    f = form(uneven, (-4.0, -1.0))
     order = depth.ravel().argsort()
     assert (np.diff(f.ravel()[order]) >= 0).all()
     assert f.min() == pytest.approx(-4)

@@ -30,7 +30,7 @@ def random_terms(rng, light=1.0):
         twist_weight=0.3 * slope_weight,
         form_weight=rng.random(SHAPE) * inner(SHAPE, 2),
         form=rng.normal(size=SHAPE),
-        depth=4.0,
+        bounds=(-4.0, 0.0),
     )
 
 

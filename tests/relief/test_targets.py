@@ -48,14 +48,16 @@ def test_a_line_is_as_deep_as_asked(layers):
 
 
 def test_weights_mean_the_same_at_any_resolution(layers, finer_layers):
-    coarse, fine = (terms_of(x, Carving()) for x in (layers, finer_layers))
+    coarse, fine = (
+        terms_of(x, Carving(), (-4.0, -1.0), (-4.0, 0.0)) for x in (layers, finer_layers)
+    )
     assert fine.depth_weight.sum() == pytest.approx(coarse.depth_weight.sum(), rel=0.02)
     assert fine.light_weight.sum() == pytest.approx(coarse.light_weight.sum(), rel=0.03)
     assert fine.form_weight.sum() == pytest.approx(coarse.form_weight.sum(), rel=0.03)
 
 
 def test_nothing_is_asked_outside_the_figure(layers):
-    terms = terms_of(layers, Carving())
+    terms = terms_of(layers, Carving(), (-4.0, -1.0), (-4.0, 0.0))
     assert (terms.depth_weight[~layers.mask] == 0).all()
     touched = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
     assert ((terms.form_weight > 0) == touched).all()
