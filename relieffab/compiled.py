@@ -25,9 +25,7 @@ def _cache_folder() -> Path:
     return own if _writable(own) else Path(tempfile.gettempdir()) / f"relieffab-{os.getuid()}"
 
 
-# Read once, when Numba and its threads first start.  Threads that wait should
-# sleep: kernels are short, and spinning takes the core from whoever has work.
-os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+# Numba reads this once, when it is first imported.
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 
 import numba  # noqa: E402

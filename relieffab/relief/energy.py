@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from relieffab.compiled import parallel_kernel, prange
 
 Floats = NDArray[np.float64]
+Bounds = tuple[Floats | float, Floats | float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ class Terms:
         1/mm²; positive on every node of the figure, 0 elsewhere.
     form : (n, m) ndarray
         mm.
-    bounds : tuple of float
+    bounds : tuple of (n, m) ndarray or float
         Lowest and highest height allowed, mm; infinite for none.
     """
 
@@ -63,7 +64,7 @@ class Terms:
     twist_weight: Floats
     form_weight: Floats
     form: Floats
-    bounds: tuple[float, float]
+    bounds: Bounds
 
 
 @parallel_kernel
@@ -178,22 +179,22 @@ def _assemble(  # type: ignore[no-untyped-def] # noqa: PLR0912
             i = 1 + colour + 3 * block
             if i >= n - 1:
                 continue
+            x, y = np.empty((3, 3)), np.empty((3, 3))
             for j in range(1, m - 1):
                 stencil[i, 12, j] += form_weight[i, j]
                 w, t = scale * (depth_weight[i, j] + line_weight[i, j]), scale * twist_weight[i, j]
                 if w > 0.0 or t > 0.0:
                     for a in range(4):
                         for b in range(4):
-                            x = (2 * (a % 2) - 1) * (2 * (b % 2) - 1)
-                            y = (1 - 2 * (a // 2)) * (1 - 2 * (b // 2))
+                            pp = (2 * (a % 2) - 1) * (2 * (b % 2) - 1)
+                            qq = (1 - 2 * (a // 2)) * (1 - 2 * (b // 2))
                             o = 5 * (b // 2 - a // 2 + 2) + b % 2 - a % 2 + 2
-                            stencil[i + a // 2, o, j + a % 2] += w * (x + y) + t * x * y
+                            stencil[i + a // 2, o, j + a % 2] += w * (pp + qq) + t * pp * qq
                 w = light_weight[i, j]
                 if w == 0.0:
                     continue
                 for k in range(len(dp)):
-                    x = np.zeros((3, 3))
-                    y = np.zeros((3, 3))
+                    x[:], y[:] = 0.0, 0.0
                     for pixel in range(4):
                         u, v = pixel // 2, pixel % 2
                         sx, sy = 2.0 * v - 1.0, 1.0 - 2.0 * u
@@ -202,13 +203,14 @@ def _assemble(  # type: ignore[no-untyped-def] # noqa: PLR0912
                             value = by_p * (2 * (a % 2) - 1) + by_q * (1 - 2 * (a // 2))
                             x[u + a // 2, v + a % 2] += sx * value * scale
                             y[u + a // 2, v + a % 2] += sy * value * scale
-                    for a in range(9):
-                        xa, ya = w * x[a // 3, a % 3], w * y[a // 3, a % 3]
-                        for b in range(9):
-                            o = 5 * (b // 3 - a // 3 + 2) + b % 3 - a % 3 + 2
-                            stencil[i + a // 3 - 1, o, j + a % 3 - 1] += (
-                                xa * x[b // 3, b % 3] + ya * y[b // 3, b % 3]
-                            )
+                    for a in range(3):
+                        for b in range(3):
+                            xa, ya = w * x[a, b], w * y[a, b]
+                            row = stencil[i + a - 1]
+                            for c in range(3):
+                                for d in range(3):
+                                    o = 5 * (c - a + 2) + d - b + 2
+                                    row[o, j + b - 1] += xa * x[c, d] + ya * y[c, d]
 
 
 @dataclass(frozen=True, eq=False)

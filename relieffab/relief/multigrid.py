@@ -11,30 +11,43 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.compiled import parallel_kernel, prange
+from relieffab.compiled import kernel, parallel_kernel, prange
 
 Singles = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
 
-COARSEST = 300  # free nodes below which a level is solved directly
+COARSEST = 300  # free nodes below which a level is only smoothed
 DEGREE = 2  # of the Chebyshev smoother
+COARSEST_SWEEPS = 16
 SMOOTHED = 12.0  # the smoother damps the spectrum's top down to this fraction
 
 
+@kernel
+def _couple(couplings, x, i, first, row):  # type: ignore[no-untyped-def]
+    """Add row i of the operator's product, from column `first` on.
+
+    Slices start where they are needed: an index that cannot be negative is what
+    lets the compiler use vectors.
+    """
+    width = len(row)
+    for o in range(25):
+        start = first + o % 5 - 2
+        line = x[i + o // 5 - 2, start : start + width]
+        coupling = couplings[o, first : first + width]
+        for k in range(width):
+            row[k] += coupling[k] * line[k]
+
+
 @parallel_kernel
-def _apply(stencil, x, out):  # type: ignore[no-untyped-def]
-    """Multiply by the operator."""
-    n, m = x.shape
-    for i in prange(2, n - 2):
-        row = np.zeros(m, out.dtype)
-        for o in range(25):
-            shift = o % 5 - 2
-            line = x[i + o // 5 - 2]
-            coupling = stencil[i, o]
-            for j in range(2, m - 2):
-                row[j] += coupling[j] * line[j + shift]
-        out[i] = row
+def _apply(stencil, spans, x, out):  # type: ignore[no-untyped-def]
+    """Multiply by the operator, from each row's first to its last free node."""
+    for i in prange(2, len(x) - 2):
+        first, last = spans[i, 0], spans[i, 1]
+        row = out[i, first:last]
+        row[:] = 0.0
+        _couple(stencil[i], x, i, first, row)
 
 
 @parallel_kernel
@@ -140,11 +153,14 @@ class Level:
         Reciprocal row sums of absolute couplings, 0 on fixed nodes: the operator
         times these has no eigenvalue above 1 (Gershgorin), which the diagonal
         alone does not promise.
+    spans : (n, 2) ndarray of int
+        First free node of each row, and one past its last; equal where none is.
     """
 
     stencil: Singles
     free: Bools
     scale: Singles
+    spans: Ints
 
 
 @parallel_kernel
@@ -162,7 +178,10 @@ def _scale(stencil, free, out):  # type: ignore[no-untyped-def]
 def _level(stencil: Singles, free: Bools) -> Level:
     scale = np.empty(free.shape, np.float32)
     _scale(stencil, free, scale)
-    return Level(stencil, free, scale)
+    first = free.argmax(axis=1)
+    last = free.shape[1] - free[:, ::-1].argmax(axis=1)
+    spans = np.stack([first, np.where(free.any(axis=1), last, first)], axis=1)
+    return Level(stencil, free, scale, spans)
 
 
 def build(stencil: Singles, free: Bools) -> list[Level]:
@@ -192,24 +211,50 @@ def build(stencil: Singles, free: Bools) -> list[Level]:
     return levels
 
 
-def _smooth(level: Level, rhs: Singles, x: Singles, *, start_at_zero: bool) -> None:
+@parallel_kernel
+def _advance(stencil, spans, scale, rhs, x, step, out, keep, gain):  # type: ignore[no-untyped-def]
+    """One Chebyshev step: step = keep step + gain scale (rhs - A x), out = x + step."""
+    for i in prange(2, len(x) - 2):
+        first, last = spans[i, 0], spans[i, 1]
+        row = np.zeros(last - first, np.float32)
+        _couple(stencil[i], x, i, first, row)
+        moves, scales, wanted = step[i, first:last], scale[i, first:last], rhs[i, first:last]
+        here, there = x[i, first:last], out[i, first:last]
+        for k in range(len(row)):
+            moves[k] = keep * moves[k] + gain * scales[k] * (wanted[k] - row[k])
+            there[k] = here[k] + moves[k]
+
+
+@parallel_kernel
+def _residual(stencil, spans, free, rhs, x, out):  # type: ignore[no-untyped-def]
+    """What is left of the right-hand side; 0 on fixed nodes."""
+    for i in prange(2, len(x) - 2):
+        first, last = spans[i, 0], spans[i, 1]
+        row = np.zeros(last - first, np.float32)
+        _couple(stencil[i], x, i, first, row)
+        wanted, left, open_ = rhs[i, first:last], out[i, first:last], free[i, first:last]
+        for k in range(len(row)):
+            left[k] = wanted[k] - row[k] if open_[k] else np.float32(0.0)
+
+
+def _smooth(level: Level, rhs: Singles, x: Singles, sweeps: int) -> Singles:
     """Chebyshev iteration on the upper part of the spectrum (Saad 2003, Alg. 12.1)."""
     high, low = 1.0, 1.0 / SMOOTHED
     centre, half = (high + low) / 2, (high - low) / 2
     sigma = centre / half
     rho = 1.0 / sigma
-    product = np.zeros_like(x)
-    if not start_at_zero:
-        _apply(level.stencil, x, product)
-    step = (rhs - product) * level.scale / np.float32(centre)
-    x += step
-    for _ in range(DEGREE - 1):
-        _apply(level.stencil, x, product)
+    keep, gain = 0.0, 1.0 / centre
+    step, other = np.zeros_like(x), np.zeros_like(x)
+    for _ in range(sweeps):
+        _advance(
+            level.stencil, level.spans, level.scale, rhs, x, step, other,
+            np.float32(keep), np.float32(gain),
+        )  # fmt: skip
+        x, other = other, x
         rho_next = 1.0 / (2.0 * sigma - rho)
-        step *= np.float32(rho_next * rho)
-        step += (rhs - product) * level.scale * np.float32(2.0 * rho_next / half)
-        x += step
+        keep, gain = rho_next * rho, 2.0 * rho_next / half
         rho = rho_next
+    return x
 
 
 def cycle(levels: list[Level], rhs: Singles) -> Singles:
@@ -217,20 +262,15 @@ def cycle(levels: list[Level], rhs: Singles) -> Singles:
     level = levels[0]
     x = np.zeros_like(rhs)
     if len(levels) == 1:
-        for sweep in range(8):
-            _smooth(level, rhs, x, start_at_zero=sweep == 0)
-        return x
-    _smooth(level, rhs, x, start_at_zero=True)
+        return _smooth(level, rhs, x, COARSEST_SWEEPS)
+    x = _smooth(level, rhs, x, DEGREE)
     residual = np.zeros_like(rhs)
-    _apply(level.stencil, x, residual)
-    np.subtract(rhs, residual, out=residual)
-    residual *= level.free
+    _residual(level.stencil, level.spans, level.free, rhs, x, residual)
     coarse = np.zeros(levels[1].free.shape, np.float32)
     _restrict(residual, coarse)
     coarse *= levels[1].free
     _prolong(cycle(levels[1:], coarse), level.free, x)
-    _smooth(level, rhs, x, start_at_zero=False)
-    return x
+    return _smooth(level, rhs, x, DEGREE)
 
 
 def solve(
@@ -268,7 +308,7 @@ def solve(
         rho_next = dot(residual, better)
         direction = better if direction is None else better + (rho_next / rho) * direction
         rho = rho_next
-        _apply(top.stencil, direction, product)
+        _apply(top.stencil, top.spans, direction, product)
         step = rho / dot(direction, product)
         x += step * direction
         residual -= step * product

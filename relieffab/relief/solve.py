@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
 from relieffab.relief.edge import fill, wall
-from relieffab.relief.energy import Terms, linearise, operator
+from relieffab.relief.energy import Bounds, Terms, linearise, operator
 from relieffab.relief.model import Relief
 from relieffab.relief.multigrid import build, solve
 from relieffab.relief.pyramid import halve, refine
-from relieffab.relief.targets import Carving, terms_of, to_nodes
+from relieffab.relief.targets import Carving, terms_of
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]
@@ -44,7 +44,7 @@ class Solution:
     inner: int
 
 
-def projected_gradient(gradient: Floats, h: Floats, bounds: tuple[float, float]) -> Floats:
+def projected_gradient(gradient: Floats, h: Floats, bounds: Bounds) -> Floats:
     """Drop the components that only push against a bound."""
     at_low = (h <= bounds[0]) & (gradient > 0)
     at_high = (h >= bounds[1]) & (gradient < 0)
@@ -137,11 +137,17 @@ def fit(layers: Layers, carving: Carving) -> tuple[float, float]:
     return float(low), float(high)
 
 
+def _lowest(layers: Layers, carving: Carving) -> Floats:
+    """Lower bound of the heights: none where the wall lies above the deepest anyway."""
+    edge = wall(layers.mask, layers.pitch, carving.wall_angle)
+    return np.where(edge > -carving.depth, -np.inf, -carving.depth)
+
+
 def make_relief(
     layers: Layers,
     carving: Carving | None = None,
     *,
-    tolerance: float = 1e-3,
+    tolerance: float = 1e-2,
     progress: Progress = silent,
 ) -> tuple[Relief, Solution]:
     """Turn three aligned images into one height field within its bounds.
@@ -165,24 +171,24 @@ def make_relief(
     while min(cropped(levels[-1])[0].grid.shape) > COARSEST:
         levels.append(halve(levels[-1]))
     span = fit(levels[-1], carving)
-    heights = np.zeros(0)
+    heights, figure = np.zeros(0), np.zeros(0, bool)
     for level in reversed(levels):
         part, place = cropped(level)
-        terms = terms_of(part, carving, span, (-carving.depth, 0.0))
+        terms = terms_of(part, carving, span, (_lowest(part, carving), 0.0))
         guess = terms.form
         if heights.size:
-            guess = place.take(refine(heights, level.grid.node_shape))
+            guess = place.take(refine(heights, figure, level.grid.node_shape))
         guess = np.clip(guess, *terms.bounds) * (terms.form_weight > 0)
         finest = level is layers
         solved, solution = descend(
             terms,
             guess,
-            tolerance=tolerance if finest else max(tolerance, 1e-2),
-            most=12,
+            tolerance=tolerance if finest else max(tolerance, 3e-2),
+            most=40,
             report=progress if finest else silent,
         )
         heights = place.put(solved, level.grid.node_shape)
-    figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
+        figure = place.put(terms.form_weight > 0, level.grid.node_shape)
     heights[figure] -= heights[figure].max()
     heights = np.maximum(heights, wall(layers.mask, layers.pitch, carving.wall_angle))
     heights = np.minimum(fill(heights, layers.pitch, carving.fillet), 0.0)

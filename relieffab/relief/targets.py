@@ -10,7 +10,7 @@ from relieffab.errors import InputError
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
 from relieffab.relief.compress import compress, form, occlusions, slopes
-from relieffab.relief.energy import Terms
+from relieffab.relief.energy import Bounds, Terms
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -125,9 +125,7 @@ def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
     return whole
 
 
-def terms_of(
-    layers: Layers, carving: Carving, span: tuple[float, float], bounds: tuple[float, float]
-) -> Terms:
+def terms_of(layers: Layers, carving: Carving, span: tuple[float, float], bounds: Bounds) -> Terms:
     """Put the energy's terms together.
 
     Parameters
@@ -137,7 +135,7 @@ def terms_of(
     carving : Carving
     span : tuple of float
         Heights of the form's farthest and nearest point, mm.
-    bounds : tuple of float
+    bounds : tuple of ndarray or float
         Lowest and highest height allowed, mm.
 
     Returns

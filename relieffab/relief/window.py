@@ -37,9 +37,9 @@ class Window:
         out[mine] = whole[theirs]
         return out
 
-    def put(self, part: Floats, shape: tuple[int, int]) -> Floats:
+    def put(self, part: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
         """Lay node values back into zeros of the whole grid's shape."""
-        out = np.zeros(shape)
+        out = np.zeros(shape, part.dtype)
         mine, theirs = self._overlap(shape, 1)
         out[theirs] = part[mine]
         return out
