@@ -62,8 +62,8 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
             f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
             f"within {panel['max_error_mm']:.3f} mm"
         )
-        if panel["stock_note"]:
-            message(f"note: no stock.step: {panel['stock_note']}")
+    if report.get("stock", {}).get("note"):
+        message(f"note: no stock.step: {report['stock']['note']}")
     _programs(report, folder)
     if "picture" in report:
         picture = report["picture"]

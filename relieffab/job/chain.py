@@ -1,7 +1,8 @@
 """The stages of a job, each writing its files into a folder and saying what they are."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,11 @@ from relieffab.layers.make import Drawing, layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place
-from relieffab.picture import png8, png16
+from relieffab.panel.carve import make_panel
+from relieffab.panel.export import write_3mf, write_stl
+from relieffab.panel.model import Panel
+from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
+from relieffab.picture import panel_picture, png8, png16
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.solve import make_relief
@@ -152,30 +157,34 @@ def write_relief(relief: Relief, folder: Path) -> None:
 
 def write_panel(
     relief: Relief, job: Job, folder: Path, progress: Progress = silent
-) -> tuple[Any, Part]:
+) -> tuple[Panel, Part]:
     """Carve the solid and write it; the part is report.json's `panel`."""
-    from relieffab.panel.carve import make_panel
-    from relieffab.panel.export import write_3mf, write_stl
-    from relieffab.panel.stock import CadUnavailableError, write_step
-
-    stock = stock_of(job)
-    panel = make_panel(relief, stock, tolerance=job.mesh_tolerance, progress=progress)
+    panel = make_panel(relief, stock_of(job), tolerance=job.mesh_tolerance, progress=progress)
     write_stl(panel, folder / "panel.stl")
     write_3mf(panel, folder / "panel.3mf", name="relief panel")
-    part = {
+    return panel, {
         "file": "panel.stl",
         "triangles": len(panel.faces),
         "watertight": panel.watertight,
         "volume_mm3": panel.volume_mm3,
         "max_error_mm": panel.max_error_mm,
-        "stock_file": "stock.step",
-        "stock_note": "",
     }
+
+
+@contextmanager
+def stock_file(job: Job, folder: Path) -> Iterator[Part]:
+    """Write stock.step beside whatever else is done; the part says whether it came to be."""
+    part: Part = {"file": None, "note": ""}
+    process = start_step(stock_of(job), folder / "stock.step")
     try:
-        write_step(stock, folder / "stock.step")
+        yield part
+        finish_step(process)
+        part["file"] = "stock.step"
     except CadUnavailableError as missing:
-        part["stock_file"], part["stock_note"] = None, str(missing)
-    return panel, part
+        part["note"] = str(missing)
+    finally:
+        process.kill()
+        process.wait()
 
 
 def plan_paths(
@@ -273,10 +282,8 @@ def refuse(verdict: Verification) -> None:
         )
 
 
-def write_picture(relief: Relief, panel: Any, folder: Path) -> Part:
+def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> Part:
     """Write preview.png; the part says how it was made."""
-    from relieffab.picture import panel_picture
-
     image, method = panel_picture(relief, panel)
     (folder / "preview.png").write_bytes(png8(image))
     return {"file": "preview.png", "method": method}

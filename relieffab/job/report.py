@@ -22,6 +22,7 @@ KEYS = (
     "settings",
     "relief",
     "panel",
+    "stock",
     "programs",
     "verification",
     "picture",

@@ -29,6 +29,13 @@ def _timed(report: Report, stage: str, progress: Progress) -> Iterator[None]:
     progress(stage, 1, 1)
 
 
+@contextmanager
+def _reported(report: Report, folder: Path) -> Iterator[None]:
+    """Write the report once all else went well."""
+    yield
+    write_report(report, folder)
+
+
 def model_of(job: Job) -> tuple[Mesh, Path | None]:
     """Read the job's model; without one, the toolkit's own scarab is modelled."""
     if job.model is not None:
@@ -92,7 +99,11 @@ def make(
     chain.check(job)
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
-    with finished_together(folder) as scratch:
+    with (
+        finished_together(folder) as scratch,
+        _reported(report, scratch),
+        chain.stock_file(job, scratch) as report["stock"],
+    ):
         layers, relief = _solve(job, report, scratch, progress)
         with _timed(report, "panel", progress):
             panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
@@ -108,7 +119,6 @@ def make(
             chain.refuse(verdict)
         with _timed(report, "picture", progress):
             report["picture"] = chain.write_picture(relief, panel, scratch)
-        write_report(report, scratch)
     return report
 
 
@@ -118,9 +128,8 @@ def make_layers(
     """Take the three images of a model into a folder."""
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
-    with finished_together(folder) as scratch:
+    with finished_together(folder) as scratch, _reported(report, scratch):
         _see(job_of(settings), report, scratch, progress)
-        write_report(report, scratch)
     return report
 
 
@@ -130,11 +139,10 @@ def make_relief(
     """Solve for the relief of a model into a folder."""
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
-    with finished_together(folder) as scratch:
+    with finished_together(folder) as scratch, _reported(report, scratch):
         _, relief = _solve(job_of(settings), report, scratch, progress)
         with _timed(report, "picture", progress):
             report["picture"] = chain.write_picture(relief, None, scratch)
-        write_report(report, scratch)
     return report
 
 
@@ -142,12 +150,16 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     """Carve the panel of a relief that lies in a folder, beside it."""
     job, report = job_of(settings), read_report(folder)
     relief = read_relief(folder / "relief.tiff")
-    with finished_together(folder) as scratch:
+    report["settings"] = start_report(settings)["settings"]
+    with (
+        finished_together(folder) as scratch,
+        _reported(report, scratch),
+        chain.stock_file(job, scratch) as report["stock"],
+    ):
         with _timed(report, "panel", progress):
             panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
         with _timed(report, "picture", progress):
             report["picture"] = chain.write_picture(relief, panel, scratch)
-        _update(report, settings, scratch)
     return report
 
 
@@ -160,7 +172,8 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     if not drawing.is_file():
         raise InputError("the job has no drawing", where=str(drawing))
     strokes = strokes_from_svg(drawing.read_text(encoding="utf-8"), where=str(drawing))
-    with finished_together(folder) as scratch:
+    report["settings"] = start_report(settings)["settings"]
+    with finished_together(folder) as scratch, _reported(report, scratch):
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, strokes, job, progress)
         with _timed(report, "programs", progress):
@@ -171,7 +184,6 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
                 relief, job, report["programs"], scratch
             )
             chain.refuse(verdict)
-        _update(report, settings, scratch)
     return report
 
 
@@ -187,8 +199,3 @@ def verify_again(settings: Settings, folder: Path) -> Report:
         relief, job_of(settings), report["programs"], folder
     )
     return report
-
-
-def _update(report: Report, settings: Settings, folder: Path) -> None:
-    report["settings"] = start_report(settings)["settings"]
-    write_report(report, folder)

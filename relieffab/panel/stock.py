@@ -1,5 +1,11 @@
-"""The uncut slab as a STEP file: the one place that knows cadquery."""
+"""The uncut slab as a STEP file: the one place that knows cadquery.
 
+cadquery takes three seconds to load and half a gigabyte to hold, so a job has
+it do its work in a process of its own, beside everything else.
+"""
+
+import subprocess
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -49,3 +55,38 @@ def write_step(stock: Stock, path: Path) -> None:
     box = box.translate((0.0, 0.0, -stock.thickness))
     with beside(Path(path)) as part:
         cadquery.exporters.export(box, str(part), exportType="STEP")
+
+
+def start_step(stock: Stock, path: Path) -> "subprocess.Popen[str]":
+    """Begin `write_step` in a process of its own; `finish_step` waits for it."""
+    sizes = [repr(size) for size in (stock.width, stock.height, stock.thickness)]
+    command = [sys.executable, "-m", "relieffab.panel.stock", *sizes, str(path)]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+
+
+def finish_step(process: "subprocess.Popen[str]") -> None:
+    """Wait for a STEP file.
+
+    Raises
+    ------
+    CadUnavailableError
+        If it was not written, with what the process said last.
+    """
+    _, told = process.communicate()
+    if process.returncode != 0:
+        said = told.strip() or f"exit status {process.returncode}"
+        raise CadUnavailableError(said if process.returncode == 2 else said.splitlines()[-1])
+
+
+def _main(arguments: list[str]) -> int:
+    width, height, thickness = (float(size) for size in arguments[:3])
+    try:
+        write_step(Stock(width, height, thickness), Path(arguments[3]))
+    except RelieffabError as error:
+        sys.stderr.write(f"{error}\n")
+        return error.exit_status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(_main(sys.argv[1:]))

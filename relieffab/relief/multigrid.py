@@ -227,7 +227,7 @@ def _advance(stencil, spans, scale, rhs, x, step, out, keep, gain):  # type: ign
 
 @parallel_kernel
 def _residual(stencil, spans, free, rhs, x, out):  # type: ignore[no-untyped-def]
-    """What is left of the right-hand side; 0 on fixed nodes."""
+    """Subtract the product from the right-hand side; 0 on fixed nodes."""
     for i in prange(2, len(x) - 2):
         first, last = spans[i, 0], spans[i, 1]
         row = np.zeros(last - first, np.float32)

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from skimage.measure import approximate_polygon
 
 from relieffab.layers.model import Stroke
 from relieffab.toolpath.passes import Work
@@ -12,11 +11,9 @@ from relieffab.toolpath.trace import Trace, sample
 
 Floats = NDArray[np.float64]
 
-_STRAIGHT = 0.01
-
 
 def stroke_lines(strokes: Sequence[Stroke]) -> list[Floats]:
-    """Turn strokes into lines with no more vertices than their shape needs.
+    """Turn strokes into lines without doubled points.
 
     Returns
     -------
@@ -30,7 +27,7 @@ def stroke_lines(strokes: Sequence[Stroke]) -> list[Floats]:
             points = np.concatenate([points, points[:1]])
         moved = np.append(True, np.any(np.diff(points, axis=0) != 0, axis=1))
         if moved.sum() > 1:
-            lines.append(approximate_polygon(points[moved], _STRAIGHT))
+            lines.append(points[moved])
     return lines
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.panel import stock as module
-from relieffab.panel.stock import CadUnavailableError, write_step
+from relieffab.panel.stock import CadUnavailableError, finish_step, start_step, write_step
 from relieffab.stock import Stock
 
 SLAB = Stock(120, 90, 8)
@@ -55,3 +55,15 @@ def test_a_missing_package_is_named(tmp_path, monkeypatch):
 
 def test_loading_the_module_does_not_load_cadquery():
     assert "cadquery" not in vars(module)
+
+
+def test_another_process_writes_the_same_file(tmp_path):
+    pytest.importorskip("cadquery", exc_type=ImportError)
+    finish_step(start_step(SLAB, tmp_path / "stock.step"))
+    assert "MANIFOLD_SOLID_BREP" in (tmp_path / "stock.step").read_text()
+
+
+def test_what_another_process_could_not_do_is_told(tmp_path):
+    process = start_step(SLAB, tmp_path / "nowhere" / "stock.step")
+    with pytest.raises(CadUnavailableError, match="cannot be written"):
+        finish_step(process)

@@ -17,12 +17,6 @@ def test_closed_strokes_end_where_they_start():
     assert len(line) == 4
 
 
-def test_points_a_line_does_not_need_are_dropped():
-    x = np.linspace(0, 5, 200)
-    (line,) = stroke_lines([stroke(np.column_stack([x, 0.002 * np.sin(9 * x)]))])
-    assert len(line) == 2
-
-
 def test_curves_keep_their_shape():
     t = np.linspace(0, 3, 300)
     (line,) = stroke_lines([stroke(np.column_stack([np.cos(t), np.sin(t)]))])
