@@ -20,8 +20,9 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
     InputError
         If it is a file, already holds something, or cannot be written.
     """
-    if folder.exists() and not folder.is_dir():
-        raise InputError("the output is a file, not a folder", where=str(folder))
+    for path in (folder, *folder.parents):
+        if path.exists() and not path.is_dir():
+            raise InputError("the output is a file, not a folder", where=str(path))
     if folder.is_dir() and any(folder.iterdir()) and not overwrite:
         holds = "a job" if (folder / REPORT).exists() else "files"
         raise InputError(

@@ -6,10 +6,8 @@ from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
 from relieffab.relief.energy import linearise
 from relieffab.relief.model import Relief
-from relieffab.relief.pyramid import halve
 from relieffab.relief.solve import descend, fit, make_relief, projected_gradient
 from relieffab.relief.targets import Carving, terms_of, to_nodes
-from relieffab.relief.window import Window
 
 
 @pytest.fixture(scope="module")
@@ -133,22 +131,6 @@ def test_progress_is_told_and_can_cancel(layers):
 
     with pytest.raises(KeyboardInterrupt):
         make_relief(layers, Carving(depth=1.5), progress=cancel)
-
-
-def test_halving_keeps_the_nearest_of_four(layers):
-    half = halve(layers)
-    assert half.grid.shape == (60, 80)
-    near = np.where(layers.mask, layers.depth, -np.inf).reshape(60, 2, 80, 2).max(axis=(1, 3))
-    np.testing.assert_array_equal(half.depth[half.mask], near[half.mask])
-    assert half.mask.sum() * 4 >= layers.mask.sum()
-
-
-def test_a_window_gives_back_what_it_took():
-    whole = np.arange(42.0).reshape(6, 7)
-    window = Window(-2, 3, 5, 9)
-    back = window.put(window.take(whole), whole.shape)
-    np.testing.assert_array_equal(back[:4, 3:], whole[:4, 3:])
-    assert (back[4:] == 0).all()
 
 
 def test_gradients_against_bounds_are_dropped():
