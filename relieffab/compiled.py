@@ -1,5 +1,6 @@
 """The one door to the compiler: Numba with a cache it can always write to."""
 
+import functools
 import os
 import tempfile
 from collections.abc import Callable
@@ -25,7 +26,9 @@ def _cache_folder() -> Path:
     return own if _writable(own) else Path(tempfile.gettempdir()) / f"relieffab-{os.getuid()}"
 
 
-# Numba reads this once, when it is first imported.
+# Read once, when Numba and its threads first start.  Threads that wait should
+# sleep: on a busy machine, spinning ones turn a kernel of 0.1 ms into one of 30 ms.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
 
 import numba  # noqa: E402
@@ -45,3 +48,26 @@ def parallel_kernel(function: Function) -> Function:
     on the number of threads.
     """
     return numba.njit(cache=True, nogil=True, parallel=True)(function)  # type: ignore[no-any-return]
+
+
+def adaptive_kernel(many: int) -> Callable[[Function], Function]:
+    """Compile a kernel twice: with threads for large arrays, without for small ones.
+
+    Waking a thread takes about 0.1 ms, as long as a small kernel itself.
+
+    Parameters
+    ----------
+    many : int
+        Size of the first argument from which threads pay.
+    """
+
+    def compile_both(function: Function) -> Function:
+        alone, together = kernel(function), parallel_kernel(function)
+
+        @functools.wraps(function)
+        def choose(first: Any, *rest: Any) -> Any:
+            return (together if first.size >= many else alone)(first, *rest)
+
+        return choose  # type: ignore[return-value]
+
+    return compile_both

@@ -28,3 +28,19 @@ def test_kernels_are_cached_somewhere_where_home_cannot_be_written(home):
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
     )
     assert ran.stdout.strip().startswith(("/tmp", "/var"))
+
+
+def test_with_threads_or_without_the_answer_is_the_same():
+    import numpy as np
+
+    from relieffab.compiled import adaptive_kernel, prange
+
+    def double(x, out):
+        for i in prange(len(x)):
+            out[i] = 2 * x[i]
+
+    x = np.arange(10.0)
+    for many in (1, 1000):
+        out = np.zeros(10)
+        adaptive_kernel(many)(double)(x, out)
+        np.testing.assert_array_equal(out, 2 * x)

@@ -9,6 +9,8 @@ from relieffab.grid import Grid
 from relieffab.layers.raster import Raster, interpolate
 
 Floats = NDArray[np.float64]
+
+GRAZING = 0.02  # least share of a seen normal that points to the viewer
 Ints = NDArray[np.int64]
 
 
@@ -122,7 +124,10 @@ def pixel_normals(
     corner_points = np.empty((count, 3))
     corner_points[groups.ravel()] = vertices[faces.ravel()]
     out = interpolate(raster, corner_points, groups, normals, grid)
-    out[out[..., 2] < 0] *= -1.0
+    away = face_normals(vertices, faces)[:, 2] < 0
+    out[raster.mask & away[raster.triangle]] *= -1.0
+    # Interpolation may pass the horizon of a face that is seen.
+    out[raster.mask, 2] = np.maximum(out[raster.mask, 2], GRAZING)
     length = np.linalg.norm(out, axis=2, keepdims=True)
     out /= np.where(length > 0, length, 1.0)
     out[~(length[..., 0] > 0)] = (0.0, 0.0, 1.0)

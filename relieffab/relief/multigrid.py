@@ -11,13 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.compiled import kernel, parallel_kernel, prange
+from relieffab.compiled import adaptive_kernel, kernel, parallel_kernel, prange
 
 Singles = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
 
+MANY = 60_000  # nodes from which threads pay
 COARSEST = 300  # free nodes below which a level is only smoothed
 DEGREE = 2  # of the Chebyshev smoother
 COARSEST_SWEEPS = 16
@@ -40,7 +41,7 @@ def _couple(couplings, x, i, first, row):  # type: ignore[no-untyped-def]
             row[k] += coupling[k] * line[k]
 
 
-@parallel_kernel
+@adaptive_kernel(25 * MANY)
 def _apply(stencil, spans, x, out):  # type: ignore[no-untyped-def]
     """Multiply by the operator, from each row's first to its last free node."""
     for i in prange(2, len(x) - 2):
@@ -90,7 +91,7 @@ def _coarsen(fine, free, coarse):  # type: ignore[no-untyped-def]
                                 coarse[big_i, 5 * e + f, big_j] += share
 
 
-@parallel_kernel
+@adaptive_kernel(MANY)
 def _restrict(fine, coarse):  # type: ignore[no-untyped-def]
     """Pᵀ of a fine vector that is 0 on fixed nodes."""
     rows, cols = coarse.shape
@@ -108,7 +109,7 @@ def _restrict(fine, coarse):  # type: ignore[no-untyped-def]
             coarse[big_i, big_j] = total
 
 
-@parallel_kernel
+@adaptive_kernel(MANY)
 def _prolong(coarse, free, fine):  # type: ignore[no-untyped-def]
     """Add P of a coarse vector to a fine one."""
     n, m = fine.shape
@@ -211,7 +212,7 @@ def build(stencil: Singles, free: Bools) -> list[Level]:
     return levels
 
 
-@parallel_kernel
+@adaptive_kernel(25 * MANY)
 def _advance(stencil, spans, scale, rhs, x, step, out, keep, gain):  # type: ignore[no-untyped-def]
     """One Chebyshev step: step = keep step + gain scale (rhs - A x), out = x + step."""
     for i in prange(2, len(x) - 2):
@@ -225,7 +226,7 @@ def _advance(stencil, spans, scale, rhs, x, step, out, keep, gain):  # type: ign
             there[k] = here[k] + moves[k]
 
 
-@parallel_kernel
+@adaptive_kernel(25 * MANY)
 def _residual(stencil, spans, free, rhs, x, out):  # type: ignore[no-untyped-def]
     """Subtract the product from the right-hand side; 0 on fixed nodes."""
     for i in prange(2, len(x) - 2):

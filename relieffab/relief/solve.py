@@ -7,19 +7,22 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
-from relieffab.relief.edge import fill, wall
+from relieffab.relief.edge import fill, inward_distance, wall
 from relieffab.relief.energy import Bounds, Terms, linearise, operator
 from relieffab.relief.model import Relief
 from relieffab.relief.multigrid import build, solve
 from relieffab.relief.pyramid import halve, refine
-from relieffab.relief.targets import Carving, terms_of
+from relieffab.relief.targets import Carving, Fit, terms_of
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]
 
 COARSEST = 128  # rows or columns of pixels below which no coarser grid helps
 FITTING = 3  # rounds in which the form's span is fitted
-OUTSIDE = (0.5, 99.9)  # percentiles of the heights that have to lie within the bounds
+OUTSIDE = (2.0, 98.0)  # percentiles of the heights that have to lie within the bounds
+TOP = 0.05  # of the depth, kept above the upper of them
+LEAST_GAIN = 0.4  # slopes are not made gentler than this
+RIM = 1.5  # mm from the edge that do not count
 
 
 @dataclass(frozen=True)
@@ -104,13 +107,13 @@ def descend(
     return h, Solution(energy, norm / first if first > 0 else 0.0, iteration, inner)
 
 
-def fit(layers: Layers, carving: Carving) -> tuple[float, float]:
-    """Choose the form's span so that the whole relief just fits its depth.
+def fit(layers: Layers, carving: Carving) -> Fit:
+    """Choose the form's span and the slopes' gain so that the relief fits its depth.
 
     Detail rises above the form and cuts below it, by how much only solving
-    tells: solved without bounds, and the span's ends moved by what sticks out or
-    is left unused, the wall at the edge counted in.  Where that cannot be, the top
-    stays whole, and the form keeps a quarter of the depth.
+    tells: solved without bounds, slopes are made gentler where all is too tall,
+    and the span's ends moved by what sticks out or is left unused.  The rim does
+    not count: the wall covers it.
 
     Parameters
     ----------
@@ -120,21 +123,22 @@ def fit(layers: Layers, carving: Carving) -> tuple[float, float]:
 
     Returns
     -------
-    tuple of float
-        Heights of the form's farthest and nearest point, mm.
+    Fit
+        Its span within the depth, and at least half of it.
     """
     figure, _ = cropped(layers)
-    edge = wall(figure.mask, figure.pitch, carving.wall_angle)
-    low, high = -carving.depth, -0.25 * carving.depth
+    depth = carving.depth
+    far = inward_distance(figure.mask)
+    inner = far > min(RIM / figure.pitch, 0.5 * float(far.max()))
+    low, high, gain = -0.9 * depth, -0.2 * depth, 1.0
     for _ in range(FITTING):
-        terms = terms_of(figure, carving, (low, high), (-np.inf, np.inf))
+        terms = terms_of(figure, carving, Fit((low, high), gain), (-np.inf, np.inf))
         heights, _ = descend(terms, terms.form, tolerance=1e-2, most=12)
-        within = terms.form_weight > 0
-        seen = np.maximum(heights, edge)[within]
-        bottom, top = np.percentile(seen, OUTSIDE[0]), np.percentile(heights[within], OUTSIDE[1])
-        high -= top
-        low = min(low - carving.depth - bottom, high - 0.25 * carving.depth)
-    return float(low), float(high)
+        bottom, top = np.percentile(heights[inner], OUTSIDE)
+        gain = float(np.clip(gain * depth / max(top - bottom, 1e-9), LEAST_GAIN, 1.0))
+        high = float(np.clip(high - top - TOP * depth, -0.4 * depth, -TOP * depth))
+        low = float(np.clip(low - depth - bottom, -depth, high - 0.5 * depth))
+    return Fit((low, high), gain)
 
 
 def _lowest(layers: Layers, carving: Carving) -> Floats:
@@ -170,11 +174,11 @@ def make_relief(
     levels = [layers]
     while min(cropped(levels[-1])[0].grid.shape) > COARSEST:
         levels.append(halve(levels[-1]))
-    span = fit(levels[-1], carving)
+    fitted = fit(levels[-1], carving)
     heights, figure = np.zeros(0), np.zeros(0, bool)
     for level in reversed(levels):
         part, place = cropped(level)
-        terms = terms_of(part, carving, span, (_lowest(part, carving), 0.0))
+        terms = terms_of(part, carving, fitted, (_lowest(part, carving), 0.0))
         guess = terms.form
         if heights.size:
             guess = place.take(refine(heights, figure, level.grid.node_shape))

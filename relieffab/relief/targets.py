@@ -81,6 +81,22 @@ class Carving:
             )
 
 
+@dataclass(frozen=True)
+class Fit:
+    """How the figure is made to fit its depth.
+
+    Parameters
+    ----------
+    span : tuple of float
+        Heights of the form's farthest and nearest point, mm.
+    gain : float
+        What the slopes asked for are multiplied by, at most 1.
+    """
+
+    span: tuple[float, float]
+    gain: float
+
+
 def to_nodes(pixels: Floats, weight: Floats) -> Floats:
     """Weighted means of the up to four pixels around each node.
 
@@ -125,7 +141,7 @@ def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
     return whole
 
 
-def terms_of(layers: Layers, carving: Carving, span: tuple[float, float], bounds: Bounds) -> Terms:
+def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> Terms:
     """Put the energy's terms together.
 
     Parameters
@@ -133,8 +149,7 @@ def terms_of(layers: Layers, carving: Carving, span: tuple[float, float], bounds
     layers : Layers
         Its figure at least three pixels from the edge of its grid.
     carving : Carving
-    span : tuple of float
-        Heights of the form's farthest and nearest point, mm.
+    fitted : Fit
     bounds : tuple of ndarray or float
         Lowest and highest height allowed, mm.
 
@@ -160,7 +175,7 @@ def terms_of(layers: Layers, carving: Carving, span: tuple[float, float], bounds
     count = int(mask.sum())
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
-    base = to_nodes(form(layers, span), mask.astype(float)) + cut
+    base = to_nodes(form(layers, fitted.span), mask.astype(float)) + cut
     depth_weight = carving.depth_weight * sound / count
     line_weight = carving.line_weight * stencil * sound / count
     light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
@@ -171,7 +186,7 @@ def terms_of(layers: Layers, carving: Carving, span: tuple[float, float], bounds
         lights=layers.lights,
         depth_weight=depth_weight,
         line_weight=line_weight,
-        slope=compress(slope, mask) + cut_slope,
+        slope=fitted.gain * compress(slope, mask) + cut_slope,
         light_weight=light_weight,
         radiance=layers.shading + _tilted(layers, cut_slope),
         twist_weight=TWIST * (depth_weight + line_weight + corners / (4 * pitch**2)),

@@ -7,7 +7,7 @@ from relieffab.layers.shading import lambert
 from relieffab.relief.energy import linearise
 from relieffab.relief.model import Relief
 from relieffab.relief.solve import descend, fit, make_relief, projected_gradient
-from relieffab.relief.targets import Carving, terms_of, to_nodes
+from relieffab.relief.targets import Carving, Fit, terms_of, to_nodes
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def test_detail_is_kept_where_linear_compression_loses_it(carved, layers):
 
 
 def test_the_energy_is_at_its_minimum_within_the_bounds(layers):
-    terms = terms_of(layers, Carving(depth=1.5), (-1.4, -0.3), (-1.5, 0.0))
+    terms = terms_of(layers, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-1.5, 0.0))
     h, solution = descend(terms, np.clip(terms.form, -1.5, 0), tolerance=1e-4, most=40)
     assert solution.residual <= 1e-4
     here = linearise(terms, h).value
@@ -65,7 +65,7 @@ def test_the_energy_is_at_its_minimum_within_the_bounds(layers):
 
 
 def test_another_first_guess_gives_the_same_relief(layers):
-    terms = terms_of(layers, Carving(depth=1.5), (-1.4, -0.3), (-1.5, 0.0))
+    terms = terms_of(layers, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-1.5, 0.0))
     figure = terms.form_weight > 0
     guesses = np.clip(terms.form, -1.5, 0), np.where(figure, -0.7, 0.0)
     a, b = (descend(terms, g, tolerance=1e-6, most=60)[0] for g in guesses)
@@ -139,11 +139,17 @@ def test_gradients_against_bounds_are_dropped():
     np.testing.assert_array_equal(projected_gradient(gradient, h, (-2.0, 0.0)), [0, -1, 1, 0, 5])
 
 
-def test_the_fitted_span_uses_the_depth_without_plateaus(layers):
+def test_the_fit_stays_within_the_depth_and_leaves_no_plateaus(layers):
+    gains = []
     for depth in (0.5, 1.5, 4.0):
-        relief, _ = make_relief(layers, Carving(depth=depth, fillet=0.0))
-        low, high = fit(layers, Carving(depth=depth))
-        assert high > low
+        carving = Carving(depth=depth, fillet=0.0)
+        fitted = fit(layers, carving)
+        low, high = fitted.span
+        assert -depth <= low <= high - 0.5 * depth < high < 0
+        gains.append(fitted.gain)
+        relief, _ = make_relief(layers, carving)
         inner = relief.heights[1:-1, 1:-1][layers.mask[1:, 1:] & layers.mask[:-1, :-1]]
-        assert (inner > -1e-9).mean() < (0.02 if depth > 1 else 0.06)
+        assert (inner > -1e-9).mean() < 0.06
         assert (inner < 1e-9 - depth).mean() < (0.02 if depth > 1 else 0.15)
+    assert gains == sorted(gains)
+    assert gains[0] < gains[-1]

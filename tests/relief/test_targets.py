@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.targets import Carving, groove, terms_of, to_nodes
+from relieffab.relief.targets import Carving, Fit, groove, terms_of, to_nodes
 
 
 def test_node_means_use_only_the_figure():
@@ -27,7 +27,7 @@ def test_a_line_is_as_deep_as_asked(layers):
 
 def test_weights_mean_the_same_at_any_resolution(layers, finer_layers):
     coarse, fine = (
-        terms_of(x, Carving(), (-4.0, -1.0), (-4.0, 0.0)) for x in (layers, finer_layers)
+        terms_of(x, Carving(), Fit((-4.0, -1.0), 1.0), (-4.0, 0.0)) for x in (layers, finer_layers)
     )
     assert fine.depth_weight.sum() == pytest.approx(coarse.depth_weight.sum(), rel=0.02)
     assert fine.light_weight.sum() == pytest.approx(coarse.light_weight.sum(), rel=0.03)
@@ -35,7 +35,7 @@ def test_weights_mean_the_same_at_any_resolution(layers, finer_layers):
 
 
 def test_nothing_is_asked_outside_the_figure(layers):
-    terms = terms_of(layers, Carving(), (-4.0, -1.0), (-4.0, 0.0))
+    terms = terms_of(layers, Carving(), Fit((-4.0, -1.0), 1.0), (-4.0, 0.0))
     assert (terms.depth_weight[~layers.mask] == 0).all()
     touched = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
     assert ((terms.form_weight > 0) == touched).all()
