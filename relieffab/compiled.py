@@ -3,6 +3,7 @@
 import functools
 import os
 import tempfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -22,8 +23,13 @@ def _writable(folder: Path) -> bool:
 
 
 def _cache_folder() -> Path:
-    own = Path(platformdirs.user_cache_dir("relieffab")) / "kernels"
-    return own if _writable(own) else Path(tempfile.gettempdir()) / f"relieffab-{os.getuid()}"
+    """Return a folder for these sources: a kernel built from others would be stale."""
+    sources = sorted(Path(__file__).parent.rglob("*.py"))
+    seen = repr([(path.name, path.stat().st_size, path.stat().st_mtime_ns) for path in sources])
+    own = (
+        Path(platformdirs.user_cache_dir("relieffab")) / f"kernels-{zlib.crc32(seen.encode()):08x}"
+    )
+    return own if _writable(own) else Path(tempfile.mkdtemp(prefix="relieffab-"))
 
 
 # Read once, when Numba and its threads first start.  Threads that wait should

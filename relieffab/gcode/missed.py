@@ -17,7 +17,9 @@ def missed_patch(relief: Relief, excess: Floats, cutter: Cutter, tolerance: floa
 
     What a cutter can make of a relief is the relief closed by it: dropped at
     every node, what it leaves there.  A node counts as missed if it stands
-    more than the tolerance above the relief and above that.
+    more than the tolerance above the relief and above that, square to the
+    surface: between two rows on a steep wall a vertical measure finds what no
+    hand would.
 
     Parameters
     ----------
@@ -34,15 +36,25 @@ def missed_patch(relief: Relief, excess: Floats, cutter: Cutter, tolerance: floa
     float
         Area of the largest connected patch, mm².
     """
-    asked = excess > tolerance
+    upright = _flatness(relief)
+    asked = excess * upright > tolerance
     if not asked.any():
         return 0.0
     missed = np.zeros_like(asked)
-    missed[asked] = excess[asked] - _residual(relief, asked, cutter) > tolerance
+    unmade = excess[asked] - _residual(relief, asked, cutter)
+    missed[asked] = unmade * upright[asked] > tolerance
     patches, count = ndimage.label(missed, structure=np.ones((3, 3)))
     if not count:
         return 0.0
     return float(np.bincount(patches.ravel())[1:].max()) * relief.grid.pitch**2
+
+
+def _flatness(relief: Relief) -> Floats:
+    """Cosine of the steepest slope next to each node."""
+    down, across = np.gradient(relief.heights, relief.grid.pitch)
+    steepest = ndimage.maximum_filter(np.hypot(down, across), size=3)
+    cosine: Floats = 1.0 / np.sqrt(1.0 + steepest**2)
+    return cosine
 
 
 def _residual(relief: Relief, asked: NDArray[np.bool_], cutter: Cutter) -> Floats:

@@ -146,6 +146,7 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
         "energy": solution.energy,
         "iterations": solution.iterations,
         "residual": solution.residual,
+        "converged": solution.converged,
     }
 
 

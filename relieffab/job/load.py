@@ -32,6 +32,15 @@ def read_toml(path: Path) -> dict[str, Any]:
         ) from fault
 
 
+def from_environment(environment: Mapping[str, str]) -> list[tuple[str, Mapping[str, Any]]]:
+    """Return each RELIEFFAB_* variable as a source of its own; unknown ones are refused later."""
+    return [
+        (variable, {variable.removeprefix(PREFIX).lower(): text})
+        for variable, text in sorted(environment.items())
+        if variable.startswith(PREFIX)
+    ]
+
+
 def gather(
     flags: Mapping[str, Any], job_file: Path | None, environment: Mapping[str, str]
 ) -> dict[str, Chosen]:
@@ -40,10 +49,7 @@ def gather(
     A model named in a job file is looked for beside that file.
     """
     sources: list[tuple[str, Mapping[str, Any]]] = [("flag", flags)]
-    for setting in SETTINGS:
-        variable = PREFIX + setting.name.upper()
-        if variable in environment:
-            sources.append((variable, {setting.name: environment[variable]}))
+    sources += from_environment(environment)
     if job_file is not None:
         values = read_toml(job_file)
         if isinstance(values.get("model"), str) and values["model"]:

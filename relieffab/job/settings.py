@@ -29,25 +29,36 @@ class Setting:
     help: str
 
 
+LONGEST = 1e5  # mm
+
+
 def _positive(text: Any) -> float:
     value = units.length(text)
-    if not 0 < value < 1e5:
-        raise InputError("a length must be more than 0", found=str(text))
+    if not 0 < value < LONGEST:
+        raise InputError(
+            "the length is out of range", expected="more than 0, under 100 m", found=str(text)
+        )
     return value
 
 
 def _not_negative(text: Any) -> float:
     value = units.length(text)
-    if not 0 <= value < 1e5:
-        raise InputError("a length must be 0 or more", found=str(text))
+    if not 0 <= value < LONGEST:
+        raise InputError(
+            "the length is out of range", expected="0 or more, under 100 m", found=str(text)
+        )
     return value
 
 
 def _size(text: Any) -> tuple[float, ...]:
     values = units.lengths(str(text))
-    if len(values) != 2 or not all(0 < v < 1e5 for v in values):
+    if len(values) != 2:
         raise InputError(
             "the size is not a panel's", expected="width x height, as 120x90mm", found=str(text)
+        )
+    if not all(0 < value < LONGEST for value in values):
+        raise InputError(
+            "the size is out of range", expected="more than 0, under 100 m", found=str(text)
         )
     return values
 
@@ -82,16 +93,6 @@ def _up(text: Any) -> str:
     if text not in ("y", "z"):
         raise InputError("the up axis is not known", expected="y or z", found=repr(text))
     return str(text)
-
-
-def _number(text: Any) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError("this is not a number", found=repr(text)) from None
-    if not 0 <= value < 1e6:
-        raise InputError("a weight must be 0 or more", found=str(text))
-    return value
 
 
 SETTINGS = (
@@ -224,9 +225,9 @@ def resolve(sources: list[tuple[str, Mapping[str, Any]]]) -> dict[str, Chosen]:
 
 
 def _read(setting: Setting, text: Any, origin: str) -> Any:
-    if text == "":
+    if text == "" and setting.default == "":
         return None
-    if isinstance(text, (bool, list, dict)):
+    if isinstance(text, bool) or not isinstance(text, (str, int, float)):
         raise InputError(
             f"{setting.name} cannot be {text!r}",
             expected=f"a value such as {setting.default or setting.help}",
@@ -248,14 +249,7 @@ def default_job(**values: Any) -> Job:
 
     Examples
     --------
-    >>> default_job(size="6in x 4in", depth="1/8").depth
-    Traceback (most recent call last):
-    ...
-    relieffab.errors.InputError: depth: this is not a length
-      expected: a number with a unit, as in 6mm or 0.25in
-      found: '1/8'
-      where: call
-    >>> default_job(size="200x100mm").size
-    (200.0, 100.0)
+    >>> default_job(size="8in x 4in").size
+    (203.2, 101.6)
     """
     return job_of(resolve([("call", values)]))

@@ -30,6 +30,7 @@ _LOADER_FAULTS = (
     EOFError,
     SyntaxError,
     OSError,
+    ImportError,
     struct.error,
     zipfile.BadZipFile,
 )
@@ -83,9 +84,7 @@ def read_mesh(path: str | Path) -> Mesh:
     path = Path(path)
     where = str(path)
     if not path.is_file():
-        nearby = [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else []
-        hint = suggest(path.name, nearby) if 0 < len(nearby) <= 200 else "check the path"
-        raise InputError("there is no such model file", where=where, hint=hint)
+        raise InputError("there is no such model file", where=where, hint=_nearest(path))
     suffix = path.suffix.lower()
     if suffix not in USUAL_UP:
         raise InputError(
@@ -106,6 +105,14 @@ def read_mesh(path: str | Path) -> Mesh:
             where=where,
         ) from fault
     return make_mesh(vertices, faces, name=path.name, usual_up=USUAL_UP[suffix])
+
+
+def _nearest(path: Path) -> str:
+    """Name the model beside it that was probably meant."""
+    beside = path.parent.iterdir() if path.parent.is_dir() else ()
+    names = [p.name for p in beside if p.suffix.lower() in USUAL_UP and p.is_file()]
+    meant = suggest(path.name, names)
+    return meant if meant.startswith("did you") else "check the path"
 
 
 def _load(path: Path, suffix: str) -> tuple[Floats, Ints]:

@@ -49,35 +49,53 @@ def read_tristrips(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     header, _, body = path.read_bytes().partition(b"end_header")
     body = body[body.index(b"\n") + 1 :]
     lines = [line.split() for line in header.decode("ascii").splitlines()]
-    encoding = next(line[1] for line in lines if line and line[0] == "format")
-    fields, vertex_count = _vertex_fields(lines)
+    encoding = next((line[1] for line in lines if line and line[0] == "format"), "none")
+    elements = [(line[1], int(line[2])) for line in lines if line and line[0] == "element"]
+    if [name for name, _ in elements] != ["vertex", "tristrips"]:
+        raise ValueError(f"elements other than vertex and tristrips: {elements}")
+    (_, vertex_count), (_, lists) = elements
+    fields = _vertex_fields(lines)
     if encoding == "ascii":
         words = body.split()
         rows = np.array(words[: vertex_count * len(fields)], float).reshape(vertex_count, -1)
         names = [name for name, _ in fields]
         vertices = rows[:, [names.index(axis) for axis in "xyz"]]
-        strip = np.array(words[vertex_count * len(fields) + 1 :], np.int64)
+        numbers = np.array(words[vertex_count * len(fields) :], np.int64)
+        strips, at = [], 0
+        for _ in range(lists):
+            count = int(numbers[at])
+            strips.append(_whole(numbers[at + 1 : at + 1 + count], count))
+            at += 1 + count
     else:
         order = {"binary_little_endian": "<", "binary_big_endian": ">"}[encoding]
         record = np.dtype([(name, order + kind) for name, kind in fields])
         table = np.frombuffer(body, record, vertex_count)
         vertices = np.stack([table[axis].astype(float) for axis in "xyz"], axis=1)
-        count_type, item_type = _strip_types(lines)
-        rest = body[record.itemsize * vertex_count :]
-        count = int(np.frombuffer(rest, order + count_type, 1)[0])
-        start = np.dtype(count_type).itemsize
-        strip = np.frombuffer(rest[start:], order + item_type, count).astype(np.int64)
-    return vertices, unroll(strip)
+        count_type, item_type = (np.dtype(order + kind) for kind in _strip_types(lines))
+        strips, at = [], record.itemsize * vertex_count
+        for _ in range(lists):
+            count = int(np.frombuffer(body, count_type, 1, at)[0])
+            at += count_type.itemsize
+            strips.append(np.frombuffer(body, item_type, count, at).astype(np.int64))
+            at += item_type.itemsize * count
+    joined = [part for strip in strips for part in (strip, np.array([-1]))]
+    return vertices, unroll(np.concatenate(joined))
 
 
-def _vertex_fields(lines: list[list[str]]) -> tuple[list[tuple[str, str]], int]:
+def _whole(numbers: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    if len(numbers) != count:
+        raise ValueError(f"a strip of {count} indices ends after {len(numbers)}")
+    return numbers
+
+
+def _vertex_fields(lines: list[list[str]]) -> list[tuple[str, str]]:
     start = next(i for i, line in enumerate(lines) if line[:2] == ["element", "vertex"])
     fields = []
     for line in lines[start + 1 :]:
         if not line or line[0] != "property":
             break
         fields.append((line[2], _TYPES[line[1]]))
-    return fields, int(lines[start][2])
+    return fields
 
 
 def _strip_types(lines: list[list[str]]) -> tuple[str, str]:

@@ -32,6 +32,10 @@ def strokes_from_svg(text: str, *, where: str = "SVG") -> tuple[Stroke, ...]:
         raise InputError("the drawing is no SVG", found=str(fault)[:200], where=where) from fault
     try:
         high = float(root.get("viewBox", "").split()[3])
+        moved = [element for element in root.iter() if element.get("transform")]
+        paths = list(root.iter(f"{_SVG}path"))
+        if moved or len(paths) != len(root.findall(f"{_SVG}g/{_SVG}path")):
+            raise ValueError("a transform, or paths outside the layers")
         return tuple(
             _stroke(path.get("d", ""), str(group.get("id")), high)
             for group in root.iterfind(f"{_SVG}g")
@@ -54,4 +58,6 @@ def _stroke(d: str, kind: str, high: float) -> Stroke:
     pairs = words[1:-1] if closed else words[1:]
     points = np.array([[float(v) for v in pair.split(",")] for pair in pairs])
     points[:, 1] = high - points[:, 1]
+    if not np.isfinite(points).all():
+        raise ValueError("coordinates that are not numbers")
     return Stroke(points, kind, np.ones(len(points)), closed)

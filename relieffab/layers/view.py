@@ -41,8 +41,8 @@ class View:
     roll : float
         How far the picture is turned, degrees counter-clockwise.
     up : {'y', 'z'}
-        The model's axis that points up.  With z up the front looks along -Y,
-        with y up along +Z.
+        The model's axis that points up.  The front's viewer stands at -Y where z
+        is up, and at +Z where y is.
     """
 
     azimuth: float = 0.0

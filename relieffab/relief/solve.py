@@ -39,12 +39,15 @@ class Solution:
         Gauss-Newton steps on the finest lattice.
     inner : int
         Conjugate gradient iterations on the finest lattice.
+    converged : bool
+        Whether the residual came below the tolerance.
     """
 
     energy: dict[str, float]
     residual: float
     iterations: int
     inner: int
+    converged: bool
 
 
 def projected_gradient(gradient: Floats, h: Floats, bounds: Bounds) -> Floats:
@@ -104,7 +107,8 @@ def descend(
         norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.bounds)))
         iteration += 1
     energy = {**here.parts, "total": here.value}
-    return h, Solution(energy, norm / first if first > 0 else 0.0, iteration, inner)
+    residual = norm / first if first > 0 else 0.0
+    return h, Solution(energy, residual, iteration, inner, residual <= tolerance)
 
 
 def fit(layers: Layers, carving: Carving) -> Fit:
@@ -129,7 +133,8 @@ def fit(layers: Layers, carving: Carving) -> Fit:
     figure, _ = cropped(layers)
     depth = carving.depth
     far = inward_distance(figure.mask)
-    inner = far > min(RIM / figure.pitch, 0.5 * float(far.max()))
+    inner = far > min(RIM / figure.pitch, 0.5 * max(float(far.max()), 0.0))
+    inner = inner if inner.any() else far > -1.0
     low, high, gain = -0.9 * depth, -0.2 * depth, 1.0
     for _ in range(FITTING):
         terms = terms_of(figure, carving, Fit((low, high), gain), (-np.inf, np.inf))

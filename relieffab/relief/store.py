@@ -2,6 +2,7 @@
 
 import io
 import json
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +60,7 @@ def read_relief(path: str | Path) -> Relief:
         with tifffile.TiffFile(path) as file:
             about = json.loads(file.pages[0].description or "null")
             pages = [page.asarray() for page in file.pages]
-    except (tifffile.TiffFileError, ValueError, OSError) as fault:
+    except (tifffile.TiffFileError, ValueError, OSError, zlib.error, IndexError) as fault:
         raise InputError(
             "the relief cannot be read", expected="a TIFF", found=str(fault)[:200], where=where
         ) from fault
@@ -70,12 +71,21 @@ def read_relief(path: str | Path) -> Relief:
             found=f"{str(about)[:80]!r} and {len(pages)} pages",
             where=where,
         )
-    heights = np.clip(pages[0].astype(np.float64), -about["depth_mm"], 0.0)
-    rows, cols = pages[1].shape
-    x, y = about["origin_mm"]
-    return Relief(
-        Grid(rows, cols, about["pitch_mm"], (x, y)), heights, pages[1] > 0, about["depth_mm"]
-    )
+    try:
+        pitch, depth = float(about["pitch_mm"]), float(about["depth_mm"])
+        x, y = (float(value) for value in about["origin_mm"])
+        rows, cols = pages[1].shape
+    except (KeyError, TypeError, ValueError) as fault:
+        raise InputError(
+            "the relief does not say its size",
+            expected="pitch_mm, origin_mm and depth_mm, and a mask of one plane",
+            found=repr(fault),
+            where=where,
+        ) from fault
+    heights = pages[0].astype(np.float64)
+    # Single precision may round the deepest height just past the bound.
+    heights = np.where(np.abs(heights + depth) < 1e-6 * depth, -depth, heights)
+    return Relief(Grid(rows, cols, pitch, (x, y)), heights, pages[1] > 0, depth)
 
 
 def grey(relief: Relief) -> np.ndarray:

@@ -9,6 +9,9 @@ from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
 
+FINEST = 0.01  # mm, the closest rows that are no mistake
+
+
 def check(
     relief: Relief, machine: Machine, cutters: Sequence[Cutter], stock: Stock, stepover: float
 ) -> None:
@@ -40,10 +43,10 @@ def check_tools(machine: Machine, cutters: Sequence[Cutter], stock: Stock, depth
 def check_stepover(stepover: float, cutter: Cutter) -> None:
     """Refuse rows that do not move on, or that leave strips standing."""
     width = cutter.diameter if cutter.shape == "vee" else 2 * cutter.arc_end
-    if not 0 < stepover <= width:
+    if not FINEST <= stepover <= width:
         raise InputError(
             f"the stepover cannot be {stepover:g} mm",
-            expected=f"more than 0, at most the {width:.3g} mm the tip is wide",
+            expected=f"{FINEST} mm or more, at most the {width:.3g} mm the tip is wide",
             where=f"cutter {cutter.name}",
         )
 

@@ -56,3 +56,20 @@ def test_a_strip_cut_short_is_refused(tmp_path):
     path.write_bytes(HEADER.format(encoding="binary_little_endian").encode() + b"\0" * 40)
     with pytest.raises(InputError, match="cannot be read"):
         read_mesh(path)
+
+
+def test_several_strips_in_one_file(tmp_path):
+    lines = [" ".join(f"{x:g}" for x in row) for row in VERTICES]
+    lines += ["5 0 1 2 3 4", "3 3 5 4"]
+    path = tmp_path / "strips.ply"
+    header = HEADER.format(encoding="ascii").replace("tristrips 1", "tristrips 2")
+    path.write_text(header + "\n".join(lines) + "\n")
+    assert as_set(read_mesh(path)) == rotated(FACES)
+
+
+def test_elements_nobody_asked_for_are_refused(tmp_path):
+    path = tmp_path / "strip.ply"
+    header = HEADER.format(encoding="ascii").replace("element tri", "element edge 0\nelement tri")
+    path.write_text(header)
+    with pytest.raises(InputError, match="cannot be read"):
+        read_mesh(path)

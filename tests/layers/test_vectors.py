@@ -25,6 +25,12 @@ def test_strokes_come_back_from_their_svg():
         '<svg xmlns="http://www.w3.org/2000/svg"><g id="a"><path d="M 1,1 2,2"/></g></svg>',
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g><path d="C 1,1"/></g></svg>',
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><g><path d=""/></g></svg>',
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
+        '<g transform="scale(2)"><path d="M 1,1 2,2"/></g></svg>',
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
+        '<g><g><path d="M 1,1 2,2"/></g></g></svg>',
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
+        '<g><path d="M nan,1 2,2"/></g></svg>',
     ],
 )
 def test_other_drawings_are_refused(text):
