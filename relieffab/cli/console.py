@@ -44,13 +44,28 @@ def message(text: str) -> None:
     print(text, file=sys.stderr)
 
 
+def print_json(report: Mapping[str, Any]) -> None:
+    """Print a report as JSON."""
+    print(json.dumps(report, indent=2, ensure_ascii=False))
+
+
+def notes(report: Mapping[str, Any]) -> list[str]:
+    """Gather what the person should know of a job."""
+    found = list(report.get("model", {}).get("notes", []))
+    if not report.get("relief", {}).get("converged", True):
+        found.append("the relief was not solved to the end: it may look unfinished")
+    if report.get("stock", {}).get("note"):
+        found.append(f"no stock.step: {report['stock']['note']}")
+    return found + list(report.get("material", {}).get("notes", []))
+
+
 def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
     """Print what was made."""
-    if as_json:
-        print(json.dumps(report, indent=2, ensure_ascii=False))
-        return
-    for note in report.get("model", {}).get("notes", []):
+    for note in notes(report):
         message(f"note: {note}")
+    if as_json:
+        print_json(report)
+        return
     if "relief" in report:
         relief = report["relief"]
         size = f"{relief['cols'] - 1} x {relief['rows'] - 1} pixels of {relief['pitch_mm']:.4f} mm"
@@ -62,8 +77,6 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
             f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
             f"within {panel['max_error_mm']:.3f} mm"
         )
-    if report.get("stock", {}).get("note"):
-        message(f"note: no stock.step: {report['stock']['note']}")
     _programs(report, folder)
     if "picture" in report:
         picture = report["picture"]
@@ -85,6 +98,8 @@ def _programs(report: Mapping[str, Any], folder: Path) -> None:
 
 def verdict(part: Mapping[str, Any]) -> None:
     """Print what simulation found."""
+    for note in part.get("notes", []):
+        message(f"note: {note}")
     word = "carves the relief" if part["ok"] else "DOES NOT carve the relief"
     print(
         f"verified {word}: gouge {part['gouge_mm']:.4f} mm, "

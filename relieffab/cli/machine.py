@@ -41,7 +41,10 @@ def stream(text: str, url: str, baud: int = 115200) -> "SendReport":
     from relieffab.grbl.sender import send as send_program
 
     with open_port(url, baud=baud) as port, console.progress_bar() as progress:
-        return send_program(text, port, progress=progress)
+        report = send_program(text, port, progress=progress)
+    for note in report.notes:
+        console.message(f"note: {note}")
+    return report
 
 
 def machines(

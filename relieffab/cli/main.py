@@ -3,8 +3,10 @@
 Exit status: 0 done, 1 findings, 2 bad input or usage, 3 machine, 130 interrupted.
 """
 
+import signal
 import sys
 from collections.abc import Sequence
+from types import FrameType
 
 from cyclopts import App, CycloptsError
 
@@ -18,6 +20,7 @@ app = App(
     version=__version__,
     help_format="plaintext",
     result_action="return_value",
+    suppress_keyboard_interrupt=False,
 )
 for command in (
     first.demo,
@@ -43,12 +46,23 @@ def run(arguments: Sequence[str]) -> int:
     except RelieffabError as error:
         print(f"relieffab: {error}", file=sys.stderr)
         return error.exit_status
-    except KeyboardInterrupt:
-        print("relieffab: interrupted; nothing half-written is left", file=sys.stderr)
+    except OSError as error:
+        print(f"relieffab: {error.strerror or error}\n  where: {error.filename}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as stopped:
+        for note in getattr(stopped, "__notes__", ["interrupted; nothing half-written is left"]):
+            print(f"relieffab: {note}", file=sys.stderr)
         return 130
     return status if isinstance(status, int) else 0
 
 
+def _interrupt(_number: int, _frame: FrameType | None) -> None:
+    """Leave by the way that Ctrl-C leaves: machines are stopped, scratch folders go."""
+    raise KeyboardInterrupt
+
+
 def main() -> None:
     """Serve as the console script."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _interrupt)
     sys.exit(run(sys.argv[1:]))

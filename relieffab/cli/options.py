@@ -1,34 +1,44 @@
 """The settings of a job as flags: made from the one table of settings."""
 
 import os
+from collections.abc import Iterable
 from dataclasses import asdict, field, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from relieffab.job.load import gather
-from relieffab.job.settings import SETTINGS, Chosen
+from relieffab.job.load import from_environment, gather
+from relieffab.job.report import read_report
+from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
-# Given as the command's argument, not as a flag.
-_POSITIONAL = ("model",)
-
-
-def _flag(name: str, text: str, default: str) -> tuple[str, Any, Any]:
-    about = f"{text} (default {default})" if default else text
-    hint = Annotated[str | None, Parameter(help=about, allow_leading_hyphen=True)]
-    return name, hint, field(default=None)
+# What `panel` and `toolpath` may still choose; the rest was settled by the relief.
+PANEL_SETTINGS = ("mesh_tolerance",)
+TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
 
 
-Options = make_dataclass(
-    "Options",
-    [_flag(s.name, s.help, s.default) for s in SETTINGS if s.name not in _POSITIONAL],
-    frozen=True,
-)
-Options.__module__ = __name__  # as Python 3.12's make_dataclass(module=...) would set it
-Options.__doc__ = "Flags of a job; what is not given comes from elsewhere."
+def _flags(name: str, settings: Iterable[str]) -> type:
+    """Make a dataclass with one optional field a setting."""
+    made = make_dataclass(name, [_flag(TABLE[setting]) for setting in settings], frozen=True)
+    made.__module__ = __name__  # as Python 3.12's make_dataclass(module=...) would set it
+    made.__doc__ = "Flags of a job; what is not given comes from elsewhere."
+    return made
+
+
+def _flag(setting: Setting) -> tuple[str, Any, Any]:
+    default = f" (default {setting.default})" if setting.default else ""
+    hint = Annotated[str | None, Parameter(help=setting.help + default, allow_leading_hyphen=True)]
+    return setting.name, hint, field(default=None)
+
+
+# The model is the command's argument, not a flag.
+Options = _flags("Options", [name for name in TABLE if name != "model"])
+PanelOptions = _flags("PanelOptions", PANEL_SETTINGS)
+ToolpathOptions = _flags("ToolpathOptions", TOOLPATH_SETTINGS)
 
 Flags = Annotated[Options | None, Parameter(name="*")]  # type: ignore[valid-type]
+PanelFlags = Annotated[PanelOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
+ToolpathFlags = Annotated[ToolpathOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 Output = Annotated[Path, Parameter(name=["--output", "-o"], help="folder for the files")]
 Overwrite = Annotated[
     bool, Parameter(negative="", help="replace the files of a job that is already there")
@@ -39,27 +49,38 @@ ShowConfig = Annotated[
 ]
 
 
+def _given(flags: Any) -> dict[str, str]:
+    if flags is None:
+        return {}
+    return {name: text for name, text in asdict(flags).items() if text is not None}
+
+
 def settings_of(source: str | None, flags: Any) -> dict[str, Chosen]:
     """Resolve settings for a model or a job file, with flags over both.
 
     Parameters
     ----------
     source : str or None
-        A model, or a job file if it ends in .toml.
+        A model, or a job file if it ends in .toml; None for the scarab.
     flags : Options or None
     """
-    given = {name: text for name, text in asdict(flags or Options()).items() if text is not None}
-    job_file = None
-    if source is not None and source.lower().endswith(".toml"):
-        job_file = Path(source)
-    elif source is not None:
-        given["model"] = source
-    return gather(given, job_file, os.environ)
+    given = _given(flags)
+    if source is None:
+        return gather({**given, "model": ""}, None, os.environ)
+    if not source.lower().endswith(".toml"):
+        return gather({**given, "model": source}, None, os.environ)
+    return gather(given, Path(source), os.environ)
 
 
-def flags_over(report: dict[str, Any], flags: Any) -> dict[str, Chosen]:
-    """Resolve settings for a folder that a job left: flags over what it was made with."""
-    from relieffab.job.settings import resolve
+def settings_in(folder: Path, names: Iterable[str], flags: Any) -> dict[str, Chosen]:
+    """Resolve settings for a folder that a job left.
 
-    given = {name: text for name, text in asdict(flags or Options()).items() if text is not None}
-    return resolve([("flag", given), ("report.json", report.get("settings", {}))])
+    Flags and RELIEFFAB_* choose among `names`; all else is as the job was made.
+    """
+    report = read_report(folder)
+    chosen = [
+        (origin, values)
+        for origin, values in from_environment(os.environ)
+        if set(values) <= set(names)
+    ]
+    return resolve([("flag", _given(flags)), *chosen, ("report.json", report["settings"])])

@@ -7,14 +7,19 @@ from cyclopts import Parameter
 
 from relieffab.cli import console
 from relieffab.cli.options import (
+    PANEL_SETTINGS,
+    TOOLPATH_SETTINGS,
     Flags,
     Json,
     Output,
     Overwrite,
+    PanelFlags,
     ShowConfig,
-    flags_over,
+    ToolpathFlags,
+    settings_in,
     settings_of,
 )
+from relieffab.errors import InputError
 
 Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
 Folder = Annotated[Path, Parameter(help="folder that `relieffab relief` or `make` left")]
@@ -75,6 +80,8 @@ def _from_model(
     if show_config:
         console.configuration(settings, as_json=as_json)
         return 0
+    if settings["model"].value is None:
+        raise InputError("the job names no model", expected='model = "FILE"', where=source)
     from relieffab.job import run
 
     with console.progress_bar() as progress:
@@ -83,23 +90,24 @@ def _from_model(
     return 0
 
 
-def panel(folder: Folder, /, *, flags: Flags = None, as_json: Json = False) -> int:
+def panel(folder: Folder, /, *, flags: PanelFlags = None, as_json: Json = False) -> int:
     """Add the solid panel to a relief's folder: STL, 3MF, STEP of the stock."""
-    return _in_folder("add_panel", folder, flags, as_json)
-
-
-def toolpath(folder: Folder, /, *, flags: Flags = None, as_json: Json = False) -> int:
-    """Add programs to a relief's folder, proved by simulation."""
-    return _in_folder("add_toolpaths", folder, flags, as_json)
-
-
-def _in_folder(stage: str, folder: Path, flags: Any, as_json: bool) -> int:
     from relieffab.job import run
-    from relieffab.job.report import read_report
 
-    settings = flags_over(read_report(folder), flags)
+    settings = settings_in(folder, PANEL_SETTINGS, flags)
     with console.progress_bar() as progress:
-        report = getattr(run, stage)(settings, folder, progress=progress)
+        report = run.add_panel(settings, folder, progress=progress)
+    console.result(report, folder, as_json=as_json)
+    return 0
+
+
+def toolpath(folder: Folder, /, *, flags: ToolpathFlags = None, as_json: Json = False) -> int:
+    """Add programs to a relief's folder, proved by simulation."""
+    from relieffab.job import run
+
+    settings = settings_in(folder, TOOLPATH_SETTINGS, flags)
+    with console.progress_bar() as progress:
+        report = run.add_toolpaths(settings, folder, progress=progress)
     console.result(report, folder, as_json=as_json)
     return 0
 
@@ -107,11 +115,10 @@ def _in_folder(stage: str, folder: Path, flags: Any, as_json: bool) -> int:
 def verify(folder: Folder, /, *, as_json: Json = False) -> int:
     """Judge the programs in a folder as they are now: 0 they carve the relief, 1 they do not."""
     from relieffab.job import run
-    from relieffab.job.report import read_report
 
-    report = run.verify_again(flags_over(read_report(folder), None), folder)
+    part = run.verify_again(folder)
     if as_json:
-        console.result({"verification": report["verification"]}, folder, as_json=True)
+        console.print_json({"verification": part})
     else:
-        console.verdict(report["verification"])
-    return 0 if report["verification"]["ok"] else 1
+        console.verdict(part)
+    return 0 if part["ok"] else 1

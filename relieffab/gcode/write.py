@@ -172,7 +172,7 @@ def _comments(
         "cutter": f"{cutter.name}, {cutter.shape} {cutter.diameter:g} mm",
         "spindle": f"{toolpath.rpm:g} rpm",
         "machine": machine.name,
-        "panel bounds, mm": bounds,
+        "bounds on the panel, mm": bounds,
         "time": f"{int(seconds // 60)} min {int(seconds % 60)} s",
     }
     for name, value in [*facts.items(), *header.items()]:

@@ -93,6 +93,10 @@ def send(
         _drive(session, job, port, progress, on_pause)
     except MachineError as lost:
         raise _unplugged(session, job, lost) from lost
+    except KeyboardInterrupt as stopped:
+        _stop(session, port)
+        stopped.add_note(str(_cancelled(session, job)))
+        raise
     finally:
         _stop(session, port)
     if session.failure is not None:
@@ -134,6 +138,12 @@ def _stop(session: Session, port: Port) -> None:
     while not session.over:
         port.write(out)
         out = session.advance(port.read(), port.now())
+
+
+def _cancelled(session: Session, job: Program) -> MachineError:
+    """Say how far an interrupted job came and what became of the machine."""
+    where = "" if session.started is None else _reached(session, job, session.acknowledged - 1)
+    return MachineError("the job was interrupted", where=where, hint=session.outcome)
 
 
 def _reached(session: Session, job: Program, index: int) -> str:

@@ -10,12 +10,6 @@ import numpy as np
 
 from relieffab import profiles
 from relieffab.cutter import Cutter
-from relieffab.errors import FindingsError, InputError
-from relieffab.gcode.estimate import estimate
-from relieffab.gcode.program import Program
-from relieffab.gcode.read import read_program
-from relieffab.gcode.verify import Verification, verify
-from relieffab.gcode.write import write_program
 from relieffab.grid import Grid
 from relieffab.job.settings import Job
 from relieffab.layers.drawing import strokes_to_svg
@@ -150,10 +144,12 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
     }
 
 
-def write_relief(relief: Relief, folder: Path) -> None:
-    """Write relief.tiff and relief.png."""
-    (folder / "relief.tiff").write_bytes(to_tiff(relief))
+def write_relief(relief: Relief, folder: Path) -> str:
+    """Write relief.tiff and relief.png; return the former's SHA-256."""
+    packed = to_tiff(relief)
+    (folder / "relief.tiff").write_bytes(packed)
     (folder / "relief.png").write_bytes(png16(grey(relief)))
+    return hashlib.sha256(packed).hexdigest()
 
 
 def write_panel(
@@ -202,85 +198,6 @@ def plan_paths(
         settings=Settings(stepover=job.stepover),
         progress=progress,
     )
-
-
-def write_programs(
-    paths: Sequence[Toolpath], relief: Relief, job: Job, folder: Path, header: dict[str, str]
-) -> list[Part]:
-    """Write one program a cutter; the parts are report.json's `programs`."""
-    machine = profiles.machine(job.machine)
-    parts = []
-    for path in paths:
-        number = {"rough": 1, "finish": 2, "lines": 3}[path.name]
-        file = f"{number:02d}-{path.name}.nc"
-        text = write_program(path, machine, stock_of(job), depth=relief.depth, header=header)
-        (folder / file).write_text(text, encoding="ascii", newline="\n")
-        program = read_program(text, name=file)
-        parts.append(
-            {
-                "file": file,
-                "cutter": {
-                    "name": path.cutter.name,
-                    "shape": path.cutter.shape,
-                    "diameter_mm": path.cutter.diameter,
-                    "tip_diameter_mm": path.cutter.tip_diameter,
-                    "angle_deg": path.cutter.angle,
-                },
-                "lines": text.count("\n"),
-                "seconds": round(estimate(program, machine), 1),
-                "cut_mm": round(path.cutting_length, 1),
-                "bounds_mm": np.round(program.bounds, 4).tolist(),
-                "sha256": hashlib.sha256(text.encode()).hexdigest(),
-            }
-        )
-    return parts
-
-
-def read_programs(folder: Path, programs: Sequence[Part]) -> list[Program]:
-    """Read the programs of a job back from their files."""
-    read = []
-    for part in programs:
-        path = folder / str(part["file"])
-        if not path.is_file():
-            raise InputError("a program of the job is missing", where=str(path))
-        read.append(read_program(path.read_text(encoding="latin-1"), name=path.name))
-    return read
-
-
-def verify_folder(
-    relief: Relief, job: Job, programs: Sequence[Part], folder: Path
-) -> tuple[Verification, Part]:
-    """Judge the programs on disk; the part is report.json's `verification`."""
-    verdict = verify(
-        read_programs(folder, programs),
-        [profiles.cutter(str(part["cutter"]["name"])) for part in programs],
-        relief,
-        stock_of(job),
-        profiles.machine(job.machine),
-    )
-    return verdict, {
-        "gouge_mm": round(verdict.gouge_mm, 5),
-        "excess_p99_mm": round(verdict.excess_p99_mm, 5),
-        "within_tolerance": round(verdict.within_tolerance, 5),
-        "tolerance_mm": verdict.tolerance_mm,
-        "ok": verdict.ok,
-        "findings": list(verdict.findings),
-    }
-
-
-def refuse(verdict: Verification) -> None:
-    """Stop a job whose programs would not carve its relief.
-
-    Raises
-    ------
-    FindingsError
-        With everything that was found.
-    """
-    if not verdict.ok:
-        raise FindingsError(
-            "the programs do not carve this relief; nothing was written",
-            found="\n    ".join(verdict.findings),
-        )
 
 
 def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> Part:

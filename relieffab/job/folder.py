@@ -4,12 +4,19 @@ import contextlib
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from relieffab.errors import InputError
 
 REPORT = "report.json"
+
+# What each stage leaves, in their order.
+LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
+RELIEF = ("relief.tiff", "relief.png", "preview.png")
+PANEL = ("panel.stl", "panel.3mf", "stock.step")
+PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
+ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, "report.html")
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:
@@ -36,18 +43,26 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
 
 
 @contextlib.contextmanager
-def finished_together(folder: Path) -> Iterator[Path]:
+def finished_together(folder: Path, stale: Sequence[str] = ()) -> Iterator[Path]:
     """Give a scratch folder whose files move to `folder` when all went well.
 
-    The scratch folder lies beside it, so that moving is renaming.  After an
-    exception nothing of it stays.
+    The scratch folder lies in it or beside it, so that moving is renaming.  The
+    old report goes first and the new one comes last: a folder that has one is
+    whole.  After an exception nothing of the scratch folder stays.
+
+    Parameters
+    ----------
+    folder : Path
+    stale : sequence of str
+        Files that no longer belong to the job unless they are made again.
     """
     folder = folder.resolve()
-    standing = next(parent for parent in folder.parents if parent.is_dir())
-    scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=standing))
+    home = next(path for path in (folder, *folder.parents) if path.is_dir())
+    scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=home))
     try:
         yield scratch
-        # The report last: a folder that has one is whole.
+        for name in (REPORT, *stale):
+            (folder / name).unlink(missing_ok=True)
         for source in sorted(scratch.rglob("*"), key=lambda path: (path.name == REPORT, path)):
             target = folder / source.relative_to(scratch)
             if source.is_dir():

@@ -88,9 +88,9 @@ def page(report: Mapping[str, Any]) -> str:
             ["largest error", f"{panel['max_error_mm']:.4f} mm"],
         ]
         parts += ["<h2>Panel</h2>", _table(["", ""], rows)]
-    notes = report.get("model", {}).get("notes", [])
+    notes = report.get("model", {}).get("notes", []) + report.get("material", {}).get("notes", [])
     if notes:
-        parts.append("<h2>Notes on the model</h2><ul>")
+        parts.append("<h2>Notes</h2><ul>")
         parts += [f"<li>{escape(note)}</li>" for note in notes]
         parts.append("</ul>")
     settings = [[key, str(value)] for key, value in report.get("settings", {}).items()]

@@ -23,6 +23,9 @@ KEYS = (
     "relief",
     "panel",
     "stock",
+    "machine",
+    "material",
+    "slab",
     "programs",
     "verification",
     "picture",
@@ -73,4 +76,7 @@ def read_report(folder: Path) -> Report:
             found=str(report.get("schema") if isinstance(report, dict) else type(report).__name__),
             where=str(path),
         )
+    if not isinstance(report.get("settings"), dict) or not isinstance(report.get("model"), dict):
+        raise InputError("the report says nothing of settings and model", where=str(path))
+    report["model"].setdefault("name", "model")
     return report

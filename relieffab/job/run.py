@@ -1,13 +1,14 @@
 """A job from end to end: the whole chain into one folder."""
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
-from relieffab.errors import InputError
-from relieffab.job import chain
-from relieffab.job.folder import check_folder, finished_together
+from relieffab.errors import FindingsError, InputError
+from relieffab.job import chain, programs
+from relieffab.job.folder import ALL, PANEL, PROGRAMS, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
@@ -16,6 +17,7 @@ from relieffab.layers.vectors import strokes_from_svg
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
+from relieffab.toolpath.path import Toolpath
 
 Settings = Mapping[str, Chosen]
 
@@ -63,9 +65,37 @@ def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[
     layers = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
         relief, report["relief"] = chain.solve_relief(layers, job, progress)
-        chain.write_relief(relief, folder)
+        report["relief"]["sha256"] = chain.write_relief(relief, folder)
     report["relief"]["seconds"] = report["timings"]["relief"]
     return layers, relief
+
+
+def _prove(
+    paths: Sequence[Toolpath],
+    relief: Relief,
+    job: Job,
+    report: Report,
+    folder: Path,
+    progress: Progress,
+) -> None:
+    """Write the programs and judge them from their files.
+
+    Raises
+    ------
+    FindingsError
+        If they would not carve the relief.
+    """
+    with _timed(report, "programs", progress):
+        report.update(programs.write(paths, relief, job, report, folder))
+    with _timed(report, "verify", progress):
+        verdict = programs.judge(relief, report, folder)
+        report["verification"] = programs.verification_part(verdict)
+    if not verdict.ok:
+        raise FindingsError(
+            "the programs do not carve this relief; nothing was written",
+            found="\n    ".join(verdict.findings),
+            hint="a finer resolution, a gentler --wall-angle, or finer cutters",
+        )
 
 
 def make(
@@ -100,7 +130,7 @@ def make(
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with (
-        finished_together(folder) as scratch,
+        finished_together(folder, ALL) as scratch,
         _reported(report, scratch),
         chain.stock_file(job, scratch) as report["stock"],
     ):
@@ -109,14 +139,7 @@ def make(
             panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, layers.strokes, job, progress)
-        with _timed(report, "programs", progress):
-            header = {"model": report["model"]["name"], "version": report["version"]}
-            report["programs"] = chain.write_programs(paths, relief, job, scratch, header)
-        with _timed(report, "verify", progress):
-            verdict, report["verification"] = chain.verify_folder(
-                relief, job, report["programs"], scratch
-            )
-            chain.refuse(verdict)
+        _prove(paths, relief, job, report, scratch, progress)
         with _timed(report, "picture", progress):
             report["picture"] = chain.write_picture(relief, panel, scratch)
     return report
@@ -128,7 +151,7 @@ def make_layers(
     """Take the three images of a model into a folder."""
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
-    with finished_together(folder) as scratch, _reported(report, scratch):
+    with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         _see(job_of(settings), report, scratch, progress)
     return report
 
@@ -137,9 +160,10 @@ def make_relief(
     settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
 ) -> Report:
     """Solve for the relief of a model into a folder."""
+    chain.carving_of(job_of(settings))
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
-    with finished_together(folder) as scratch, _reported(report, scratch):
+    with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         _, relief = _solve(job_of(settings), report, scratch, progress)
         with _timed(report, "picture", progress):
             report["picture"] = chain.write_picture(relief, None, scratch)
@@ -152,7 +176,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     relief = read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
-        finished_together(folder) as scratch,
+        finished_together(folder, PANEL) as scratch,
         _reported(report, scratch),
         chain.stock_file(job, scratch) as report["stock"],
     ):
@@ -173,29 +197,27 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
         raise InputError("the job has no drawing", where=str(drawing))
     strokes = strokes_from_svg(drawing.read_text(encoding="utf-8"), where=str(drawing))
     report["settings"] = start_report(settings)["settings"]
-    with finished_together(folder) as scratch, _reported(report, scratch):
+    with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch):
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, strokes, job, progress)
-        with _timed(report, "programs", progress):
-            header = {"model": report["model"]["name"], "version": report["version"]}
-            report["programs"] = chain.write_programs(paths, relief, job, scratch, header)
-        with _timed(report, "verify", progress):
-            verdict, report["verification"] = chain.verify_folder(
-                relief, job, report["programs"], scratch
-            )
-            chain.refuse(verdict)
+        _prove(paths, relief, job, report, scratch, progress)
     return report
 
 
-def verify_again(settings: Settings, folder: Path) -> Report:
-    """Judge the programs of a folder as they are now; nothing is written."""
+def verify_again(folder: Path) -> dict[str, Any]:
+    """Judge the programs of a folder as they are now; nothing is written.
+
+    Returns
+    -------
+    dict
+        What report.json holds as `verification`, with notes on what changed.
+    """
     report = read_report(folder)
     if not report.get("programs"):
         raise InputError(
             "the job has no programs yet", where=str(folder), hint="relieffab toolpath FOLDER"
         )
     relief = read_relief(folder / "relief.tiff")
-    _, report["verification"] = chain.verify_folder(
-        relief, job_of(settings), report["programs"], folder
-    )
-    return report
+    verdict = programs.judge(relief, report, folder)
+    changed = programs.changes(report, folder)
+    return {**programs.verification_part(verdict, changed.findings), "notes": changed.notes}

@@ -134,12 +134,12 @@ def fit(layers: Layers, carving: Carving) -> Fit:
     depth = carving.depth
     far = inward_distance(figure.mask)
     inner = far > min(RIM / figure.pitch, 0.5 * max(float(far.max()), 0.0))
-    inner = inner if inner.any() else far > -1.0
     low, high, gain = -0.9 * depth, -0.2 * depth, 1.0
     for _ in range(FITTING):
         terms = terms_of(figure, carving, Fit((low, high), gain), (-np.inf, np.inf))
         heights, _ = descend(terms, terms.form, tolerance=1e-2, most=12)
-        bottom, top = np.percentile(heights[inner], OUTSIDE)
+        counted = inner if inner.any() else terms.form_weight > 0
+        bottom, top = np.percentile(heights[counted], OUTSIDE)
         gain = float(np.clip(gain * depth / max(top - bottom, 1e-9), LEAST_GAIN, 1.0))
         high = float(np.clip(high - top - TOP * depth, -0.4 * depth, -TOP * depth))
         low = float(np.clip(low - depth - bottom, -depth, high - 0.5 * depth))

@@ -8,7 +8,6 @@ from relieffab.machine import Machine
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
-
 FINEST = 0.01  # mm, the closest rows that are no mistake
 
 

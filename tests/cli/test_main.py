@@ -1,8 +1,10 @@
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -99,11 +101,78 @@ def test_stage_by_stage_gives_the_same_programs(made, model, tmp_path, capsys):
     assert run(["panel", str(folder)]) == 0
     assert run(["toolpath", str(folder)]) == 0
     assert run(["verify", str(folder)]) == 0
-    capsys.readouterr()
-    for name in ("01-rough.nc", "02-finish.nc", "03-lines.nc"):
-        ours = [x for x in (folder / name).read_text().splitlines() if not x.startswith("(")]
-        theirs = [x for x in (made / name).read_text().splitlines() if not x.startswith("(")]
-        assert len(ours) == pytest.approx(len(theirs), rel=0.02)
+    ours, theirs = (json.loads((f / "report.json").read_text()) for f in (folder, made))
+    assert ours["panel"]["volume_mm3"] == pytest.approx(theirs["panel"]["volume_mm3"])
+    for one, other in zip(ours["programs"], theirs["programs"], strict=True):
+        assert one["cutter"] == other["cutter"]
+        # Heights and strokes come back from files in single precision and to 0.001 mm.
+        assert one["cut_mm"] == pytest.approx(other["cut_mm"], rel=0.01)
+        assert np.allclose(one["bounds_mm"], other["bounds_mm"], atol=0.02)
+
+
+def test_other_tools_give_other_programs_and_nothing_else(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["toolpath", str(folder), "--material", "hardwood", "--rough", "flat-6"]) == 0
+    report = json.loads((folder / "report.json").read_text())
+    assert report["settings"]["material"] == "hardwood"
+    assert report["programs"][0]["cutter"]["name"] == "flat-6"
+    assert report["relief"] == json.loads((made / "report.json").read_text())["relief"]
+    assert "careful guess" in capsys.readouterr().err
+    for settled in (["--depth", "0.5mm"], ["--view", "left"], ["--size", "60x50mm"]):
+        assert run(["toolpath", str(folder), *settled]) == 2
+
+
+def test_a_new_relief_leaves_no_old_programs_behind(made, model, tmp_path):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    (folder / "mine.txt").write_text("mine")
+    assert run(["relief", str(model), *SMALL, "-o", str(folder), "--overwrite"]) == 0
+    assert not list(folder.glob("*.nc")) + list(folder.glob("panel.*"))
+    assert (folder / "mine.txt").read_text() == "mine"
+
+
+def test_verify_believes_neither_report_nor_profiles(made, tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    report = json.loads((folder / "report.json").read_text())
+    left_out = {**report, "programs": report["programs"][:2]}
+    (folder / "report.json").write_text(json.dumps(left_out))
+    assert run(["verify", str(folder)]) == 1
+    assert "03-lines.nc lies in the folder" in capsys.readouterr().err
+    (folder / "report.json").write_text(json.dumps({**report, "programs": [{}]}))
+    assert run(["verify", str(folder)]) == 2
+    (folder / "report.json").write_text(json.dumps(report))
+    with (folder / "02-finish.nc").open("a") as file:
+        file.write("(by hand)\n")
+    assert run(["verify", str(folder)]) == 0
+    assert "02-finish.nc was changed" in capsys.readouterr().err
+    (folder / "02-finish.nc").unlink()
+    assert run(["verify", str(folder)]) == 2
+    (folder / "relief.tiff").write_bytes((folder / "relief.tiff").read_bytes()[:9000])
+    assert run(["verify", str(folder)]) == 2
+
+
+def test_a_job_file_without_a_model_is_refused(tmp_path, capsys):
+    (tmp_path / "job.toml").write_text('depth = "3mm"\n')
+    assert run(["make", str(tmp_path / "job.toml"), "-o", str(tmp_path / "out")]) == 2
+    assert "names no model" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_job_that_is_stopped_leaves_nothing(model, tmp_path, number):
+    command = [sys.executable, "-m", "relieffab", "make", str(model), "-o", str(tmp_path / "out")]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    waited = 0
+    while not list(tmp_path.glob(".out-*")) and waited < 600:
+        time.sleep(0.1)
+        waited += 1
+    process.send_signal(number)
+    _, told = process.communicate(timeout=120)
+    assert process.returncode == 130
+    assert "interrupted" in told
+    assert "Traceback" not in told
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_program_that_was_changed_is_judged(made, tmp_path, capsys):
