@@ -62,7 +62,8 @@ def _verdict(part: Mapping[str, Any]) -> str:
         f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm"
     )
     found = "".join(f"<li>{escape(finding)}</li>" for finding in part["findings"])
-    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p><ul>{found}</ul>'
+    listed = f"<ul>{found}</ul>" if found else ""
+    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}'
 
 
 def page(report: Mapping[str, Any]) -> str:
@@ -87,7 +88,7 @@ def page(report: Mapping[str, Any]) -> str:
             ["volume", f"{panel['volume_mm3'] / 1000:.2f} cm³"],
             ["largest error", f"{panel['max_error_mm']:.4f} mm"],
         ]
-        parts += ["<h2>Panel</h2>", _table(["", ""], rows)]
+        parts += ["<h2>Panel</h2>", _table(["measure", "value"], rows)]
     notes = report.get("model", {}).get("notes", []) + report.get("material", {}).get("notes", [])
     if notes:
         parts.append("<h2>Notes</h2><ul>")

@@ -99,7 +99,7 @@ SETTINGS = (
     Setting("model", str, "", "model file: STL, OBJ, PLY, OFF, GLB or 3MF"),
     Setting("size", _size, "120x90mm", "panel, width x height"),
     Setting("thickness", _positive, "12mm", "of the stock"),
-    Setting("depth", _positive, "4mm", "of the relief at its deepest"),
+    Setting("depth", _positive, "3mm", "of the relief at its deepest"),
     Setting("resolution", _resolution, "1024x768", "pixels across and down"),
     Setting("margin", _not_negative, "6mm", "flat border round the figure"),
     Setting("view", _view, "front", "front, back, left, right, top or bottom"),

@@ -40,7 +40,7 @@ class Carving:
     depth_weight, light_weight, line_weight, form_weight : float
     """
 
-    depth: float = 4.0
+    depth: float = 3.0
     line_depth: float | None = None
     form_length: float | None = None
     wall_angle: float = 80.0

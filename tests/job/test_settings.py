@@ -13,7 +13,7 @@ def test_the_job_has_a_field_for_every_setting():
 def test_defaults_make_a_job():
     job = default_job()
     assert job.size == (120.0, 90.0)
-    assert job.depth == 4.0
+    assert job.depth == 3.0
     assert job.model is None
 
 
