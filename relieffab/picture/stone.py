@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from relieffab.errors import InputError
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, pixel_slopes
 
 Floats = NDArray[np.float64]
 
@@ -48,9 +48,7 @@ def pixel_normals(heights: Floats, pitch: float) -> Floats:
     -------
     ndarray (rows, cols, 3)
     """
-    far, near = heights[:-1], heights[1:]
-    p = (far[:, 1:] + near[:, 1:] - far[:, :-1] - near[:, :-1]) / (2 * pitch)
-    q = (far[:, 1:] + far[:, :-1] - near[:, 1:] - near[:, :-1]) / (2 * pitch)
+    p, q = pixel_slopes(heights, pitch)
     normals = np.stack([-p, -q, np.ones_like(p)], axis=2)
     return normals / np.linalg.norm(normals, axis=2, keepdims=True)
 

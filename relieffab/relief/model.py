@@ -11,6 +11,25 @@ from relieffab.grid import Grid
 Floats = NDArray[np.float64]
 
 
+def pixel_slopes(heights: Floats, pitch: float) -> Floats:
+    """Find the slopes of pixels from their four corner nodes (Wang 2011, Sect. 5).
+
+    Parameters
+    ----------
+    heights : (rows + 1, cols + 1) ndarray
+        At nodes, mm.
+    pitch : float
+        Side of a pixel, mm.
+
+    Returns
+    -------
+    (2, rows, cols) ndarray
+        dh/dx and dh/dy.
+    """
+    a, b, c, d = heights[:-1, :-1], heights[:-1, 1:], heights[1:, :-1], heights[1:, 1:]
+    return np.stack([b + d - a - c, a + b - c - d]) / (2 * pitch)
+
+
 @dataclass(frozen=True, eq=False)
 class Relief:
     """A sunken relief; arrays are read-only.

@@ -176,13 +176,14 @@ def make_relief(
     solution : Solution
     """
     carving = carving or Carving()
-    levels = [layers]
-    while min(cropped(levels[-1])[0].grid.shape) > COARSEST:
-        levels.append(halve(levels[-1]))
-    fitted = fit(levels[-1], carving)
+    level = layers
+    figures = [(level, *cropped(level))]
+    while min(figures[-1][1].grid.shape) > COARSEST:
+        level = halve(level)
+        figures.append((level, *cropped(level)))
+    fitted = fit(level, carving)
     heights, figure = np.zeros(0), np.zeros(0, bool)
-    for level in reversed(levels):
-        part, place = cropped(level)
+    for level, part, place in reversed(figures):
         terms = terms_of(part, carving, fitted, (_lowest(part, carving), 0.0))
         guess = terms.form
         if heights.size:

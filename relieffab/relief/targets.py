@@ -11,6 +11,7 @@ from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
 from relieffab.relief.compress import compress, form, occlusions, slopes
 from relieffab.relief.energy import Bounds, Terms
+from relieffab.relief.model import pixel_slopes
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -127,11 +128,6 @@ def groove(layers: Layers, line_depth: float) -> Floats:
     return -line_depth * to_nodes(np.minimum(1.25 * ink, 1.0), np.ones_like(ink))
 
 
-def _pixel_slopes(nodes: Floats, pitch: float) -> Floats:
-    a, b, c, d = nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, :-1], nodes[1:, 1:]
-    return np.stack([(b + d - a - c), (a + b - c - d)]) / (2 * pitch)
-
-
 def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
     """Nodes whose four pixels are in the figure with no occlusion between them."""
     whole = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
@@ -171,7 +167,7 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
     torn[1:] |= down
     sound = mask & ~torn
     cut = groove(layers, line_depth)
-    cut_slope = _pixel_slopes(cut, pitch) * mask
+    cut_slope = pixel_slopes(cut, pitch) * mask
     count = int(mask.sum())
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0

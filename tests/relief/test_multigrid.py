@@ -16,7 +16,7 @@ def random_system(rng, shape=(23, 26), holes=0.1):
                 continue
             # A row of a least-squares system on the 3 x 3 nodes around.
             row = np.zeros(shape)
-            row[i - 1 : i + 2, j - 1 : j + 2] = rng.normal(size=(3, 3)) - [0, 0, 0]
+            row[i - 1 : i + 2, j - 1 : j + 2] = rng.normal(size=(3, 3))
             row[~free] = 0
             matrix += np.outer(row, row)
     matrix += 0.3 * np.diag(free.ravel().astype(float))
