@@ -12,8 +12,9 @@ from relieffab import profiles
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.job.settings import Job
-from relieffab.layers.drawing import strokes_to_svg
-from relieffab.layers.make import Drawing, layers_of
+from relieffab.layers.lines.drawing import Drawing
+from relieffab.layers.lines.svg import strokes_to_svg
+from relieffab.layers.make import layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place

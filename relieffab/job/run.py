@@ -11,9 +11,9 @@ from relieffab.job import chain, programs
 from relieffab.job.folder import ALL, PANEL, PROGRAMS, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of
+from relieffab.layers.lines.svg import strokes_from_svg
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
-from relieffab.layers.vectors import strokes_from_svg
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief

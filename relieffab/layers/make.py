@@ -1,41 +1,19 @@
 """Mesh and view to Layers: the first stage as one call."""
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.grid import Grid
+from relieffab.layers.lines.drawing import Drawing
+from relieffab.layers.lines.image import line_image, spread_ink
+from relieffab.layers.lines.strokes import draw_strokes
 from relieffab.layers.mesh import Mesh
-from relieffab.layers.model import Layers, Stroke
+from relieffab.layers.model import Layers
 from relieffab.layers.raster import rasterise
 from relieffab.layers.shading import default_lights, lambert, pixel_normals
-from relieffab.layers.strokes import draw_strokes, line_image
 from relieffab.layers.view import Placed, View, place
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """How the lines are drawn.
-
-    Parameters
-    ----------
-    width : float
-        Of a stroke at full strength, mm.
-    detail : float
-        Forms smaller than this are smoothed away before lines are sought, mm.
-    min_length : float
-        Shorter lines are left out, mm.
-    secondary : float
-        Strength of suggestive contours against that of contours, 0 to 1.
-    """
-
-    width: float = 0.6
-    detail: float = 1.2
-    min_length: float = 3.0
-    secondary: float = 0.5
 
 
 def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> Layers:
@@ -61,15 +39,8 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
     mask = raster.mask
     normals = pixel_normals(raster, placed.vertices, placed.faces, grid)
     lights = default_lights()
-    strokes = draw_strokes(
-        placed.vertices,
-        placed.faces,
-        raster,
-        grid,
-        detail=drawing.detail,
-        min_length=drawing.min_length,
-    )
-    strokes = tuple(_weighted(stroke, drawing.secondary) for stroke in strokes)
+    strokes = draw_strokes(placed, raster, grid, drawing)
+    ink = line_image(strokes, grid, width=drawing.width)
     return Layers(
         grid=grid,
         depth=np.where(mask, raster.depth, 0.0),
@@ -77,15 +48,9 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
         mask=mask,
         lights=lights,
         shading=lambert(normals, lights) * mask,
-        lines=line_image(strokes, grid, width=drawing.width),
+        lines=spread_ink(ink, drawing.spread, grid),
         strokes=strokes,
     )
-
-
-def _weighted(stroke: Stroke, secondary: float) -> Stroke:
-    if stroke.kind != "suggestive":
-        return stroke
-    return replace(stroke, strength=secondary * stroke.strength)
 
 
 def make_layers(

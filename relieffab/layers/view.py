@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.errors import InputError, suggest
+from relieffab.layers.eye import Eye
 from relieffab.layers.mesh import Mesh
 
 Floats = NDArray[np.float64]
@@ -20,6 +21,9 @@ VIEWS = {
     "bottom": (0.0, -90.0),
 }
 
+WIDEST = 120.0
+"""Angle of view beyond which a figure is a caricature, degrees."""
+
 # Model axes to a frame with X right, Y away from the viewer at the front, Z up.
 _TO_Z_UP = {
     "z": np.eye(3),
@@ -29,7 +33,7 @@ _TO_Z_UP = {
 
 @dataclass(frozen=True)
 class View:
-    """An orthographic view.
+    """From where a model is seen, and how near.
 
     Parameters
     ----------
@@ -43,18 +47,29 @@ class View:
     up : {'y', 'z'}
         The model's axis that points up.  The front's viewer stands at -Y where z
         is up, and at +Z where y is.
+    perspective : float
+        Angle of view that the model's bounding sphere fills, degrees; 0 is
+        orthographic.
     """
 
     azimuth: float = 0.0
     elevation: float = 0.0
     roll: float = 0.0
     up: str = "z"
+    perspective: float = 0.0
 
     def __post_init__(self) -> None:
         if self.up not in _TO_Z_UP:
             raise InputError("the up axis is not known", expected="y or z", found=repr(self.up))
         if not np.isfinite([self.azimuth, self.elevation, self.roll]).all():
             raise InputError("a view needs finite angles", found=f"{self}")
+        if not 0 <= self.perspective <= WIDEST:
+            raise InputError(
+                "the angle of view is out of range",
+                expected=f"0 (orthographic) to {WIDEST:g} degrees",
+                found=f"{self.perspective:g} degrees",
+                where="perspective",
+            )
 
     @property
     def rotation(self) -> Floats:
@@ -113,15 +128,31 @@ class Placed:
     Parameters
     ----------
     vertices : (v, 3) ndarray
-        mm, X right, Y away, Z to the viewer, the nearest point at Z0.
+        As seen, mm: X right, Y away, Z to the viewer, the nearest point at Z0;
+        bent by the eye's homology if the view is in perspective.
     faces : (f, 3) ndarray of int
     matrix : (4, 4) ndarray
-        Homogeneous, from model units to panel mm.
+        Homogeneous, from model units to `vertices`.
+    solid : (v, 3) ndarray
+        The model's true shape in the same place, mm; `vertices` if the view is
+        orthographic.
+    eye : Eye
+        From `solid` to `vertices`.
     """
 
     vertices: Floats
     faces: NDArray[np.int64]
     matrix: Floats
+    solid: Floats
+    eye: Eye
+
+    @classmethod
+    def seen_from(
+        cls, eye: Eye, solid: Floats, faces: NDArray[np.integer], matrix: Floats
+    ) -> "Placed":
+        """Look from an eye at a true shape that `matrix` took from model units to mm."""
+        seen = eye.project(solid)
+        return cls(seen, np.asarray(faces, np.int64), eye.matrix @ matrix, solid, eye)
 
 
 def place(mesh: Mesh, view: View, size: tuple[float, float], *, margin: float) -> Placed:
@@ -154,27 +185,44 @@ def place(mesh: Mesh, view: View, size: tuple[float, float], *, margin: float) -
             expected=f"a margin from 0 to under {min(size) / 2:g} mm",
             found=f"{margin:g} mm on a panel of {size[0]:g} x {size[1]:g} mm",
         )
-    seen = (mesh.vertices - mesh.vertices.mean(axis=0)) @ view.rotation.T
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    extent = high - low
+    turned = mesh.vertices @ view.rotation.T
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    _refuse_flat(high - low, mesh.name)
+    # The foot of the eye: above the middle of the model, on its nearest plane.
+    foot = np.append((low + high)[:2] / 2, high[2])
+    nearness = _nearness(turned - foot, view.perspective)
+    seen = Eye(nearness=nearness).project(turned - foot)
+    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    scale = float((room / (high - low)).min())
+    x, y = np.array(size) / 2 - scale * (low + high) / 2
+    matrix = np.eye(4)
+    matrix[:3, :3] = scale * view.rotation
+    matrix[:3, 3] = np.array([x, y, 0.0]) - scale * foot
+    solid = scale * (turned - foot) + [x, y, 0.0]
+    return Placed.seen_from(Eye(x, y, nearness / scale), solid, mesh.faces, matrix)
+
+
+def _nearness(points: Floats, angle: float) -> float:
+    """1 over the eye's height above Z0, from which points span an angle (degrees)."""
+    middle = points[:, 2].min() / 2
+    radius = float(np.linalg.norm(points - [0.0, 0.0, middle], axis=1).max())
+    half = sin(radians(angle / 2))
+    return half / (radius + half * middle)
+
+
+def _refuse_flat(extent: Floats, name: str) -> None:
+    found = f"{extent[0]:.3g} wide, {extent[1]:.3g} high, {extent[2]:.3g} deep"
     if extent[:2].min() < 1e-3 * extent.max():
         raise InputError(
             "the model is seen edge on: there is no figure to carve",
-            found=f"{extent[0]:.3g} wide, {extent[1]:.3g} high, {extent[2]:.3g} deep",
-            where=mesh.name,
+            found=found,
+            where=name,
             hint="another --view or --up",
         )
     if extent[2] < 1e-4 * extent[:2].max():
         raise InputError(
             "the model is flat as seen from there: there is no depth to carve",
-            found=f"{extent[0]:.3g} wide, {extent[1]:.3g} high, {extent[2]:.3g} deep",
-            where=mesh.name,
+            found=found,
+            where=name,
             hint="another --view or --up",
         )
-    scale = float((room / extent[:2]).min())
-    matrix = np.eye(4)
-    matrix[:3, :3] = scale * view.rotation
-    middle = np.append((low + high)[:2] / 2, high[2])
-    shift = np.append(np.array(size) / 2, 0.0) - scale * middle
-    matrix[:3, 3] = shift - matrix[:3, :3] @ mesh.vertices.mean(axis=0)
-    return Placed(scale * seen + shift, mesh.faces, matrix)

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.grid import Grid
-from relieffab.layers.chains import Chains
+from relieffab.layers.lines.chains import Chains
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

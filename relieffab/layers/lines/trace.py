@@ -44,11 +44,10 @@ def close_gaps(flags: Flags, longest: float, *, ends: bool = False) -> Flags:
     return out
 
 
-def hysteresis(flags: Flags, strength: Floats, low: float, high: float) -> Flags:
-    """Keep the stretches of flags with strength above `low` that reach `high` somewhere."""
-    weak = flags & (strength > low)
-    out = np.zeros_like(weak)
-    for start, stop in zip(*runs(weak), strict=True):
+def hysteresis(flags: Flags, strength: Floats, high: float) -> Flags:
+    """Keep the stretches of flags whose strength reaches `high` somewhere."""
+    out = np.zeros_like(flags)
+    for start, stop in zip(*runs(flags), strict=True):
         out[start:stop] = strength[start:stop].max() >= high
     return out
 
@@ -59,6 +58,23 @@ def drop_short(flags: Flags, shortest: float) -> Flags:
     for start, stop in zip(*runs(flags), strict=True):
         if stop - start < shortest:
             out[start:stop] = False
+    return out
+
+
+def narrowed(flags: Flags, by: float) -> Flags:
+    """Clear `by` samples at both ends of each stretch of True within, and short stretches whole.
+
+    Parameters
+    ----------
+    flags : (n,) ndarray of bool
+    by : float
+        Samples.
+    """
+    out = np.zeros_like(flags)
+    cut = int(by)
+    for start, stop in zip(*runs(flags), strict=True):
+        if stop - start > 2 * cut:
+            out[start + cut * (start > 0) : stop - cut * (stop < len(flags))] = True
     return out
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from relieffab.grid import Grid
-from relieffab.layers.outline import outlines
+from relieffab.layers.lines.outline import outlines
 
 GRID = Grid(300, 400, 0.1, (0.0, 30.0))
 

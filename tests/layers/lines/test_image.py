@@ -3,7 +3,8 @@ import pytest
 from lxml import etree
 
 from relieffab.grid import Grid
-from relieffab.layers.drawing import line_image, strokes_to_svg
+from relieffab.layers.lines.image import line_image
+from relieffab.layers.lines.svg import strokes_to_svg
 from relieffab.layers.model import Stroke
 
 GRID = Grid(60, 80, 0.25, (1.0, 16.0))

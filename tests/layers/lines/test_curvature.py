@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from relieffab.layers.curvature import curvature, feature_size, vertex_normals
+from relieffab.layers.lines.curvature import curvature, vertex_normals
 
 BIG, SMALL = 3.0, 1.0
 
@@ -196,7 +196,6 @@ def test_doubled_and_opposed_triangles_stay_finite():
 def test_no_faces_at_all():
     bend = curvature(np.zeros((4, 3)), np.empty((0, 3), int))
     assert np.isfinite(bend.derivative).all()
-    assert feature_size(bend, np.zeros((4, 3))) == 0.0
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1e3])
@@ -207,14 +206,3 @@ def test_scale_and_place_do_not_matter(scale):
     np.testing.assert_allclose(
         np.abs(other.derivative) * scale**2, np.abs(bend.derivative), atol=1e-8
     )
-    size = feature_size(bend, points)
-    assert feature_size(other, scale * points + 7 * scale) == pytest.approx(scale * size)
-
-
-def test_feature_size_takes_the_lesser_bound():
-    points, faces = sphere(5.0)
-    bend = curvature(points, faces)
-    assert feature_size(bend, points) == pytest.approx(0.01 / 0.2, rel=1e-3)
-    plane = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-    flat = curvature(plane, np.array([[0, 1, 2], [0, 2, 3]]))
-    assert feature_size(flat, plane) == pytest.approx(0.05 * np.sqrt(0.5))

@@ -199,7 +199,7 @@ def _turn_tensor(t: Floats, c: Floats, s: Floats) -> Floats:
     )
 
 
-def _turn_cubic(t: Floats, c: Floats, s: Floats) -> Floats:
+def turn_cubic(t: Floats, c: Floats, s: Floats) -> Floats:
     """Components of a symmetric cubic form in a frame turned by the angle of (c, s)."""
     t0, t1, t2, t3 = t
     ccc, ccs, css, sss = c * c * c, c * c * s, c * s * s, s * s * s
@@ -213,7 +213,7 @@ def _turn_cubic(t: Floats, c: Floats, s: Floats) -> Floats:
     )
 
 
-def _diagonalise(tensor: Floats) -> tuple[Floats, Floats, Floats]:
+def diagonalise(tensor: Floats) -> tuple[Floats, Floats, Floats]:
     """Principal curvatures (2, v), |k1| >= |k2|, and the turn (c, s) to their frame."""
     e, m, g = tensor
     mean, half = (e + g) / 2, (e - g) / 2
@@ -252,7 +252,7 @@ def curvature(vertices: Floats, faces: Ints) -> Curvature:
     turned = _turn_tensor(form[:, None], c, s)
     tensor = np.stack([_gather(f.corners, weights * part, count) for part in turned])
 
-    principal, cos, sin = _diagonalise(tensor)
+    principal, cos, sin = diagonalise(tensor)
     e2 = _cross(normals, e1)
     e1, e2 = cos * e1 + sin * e2, cos * e2 - sin * e1
     cos, sin = cos[f.corners], sin[f.corners]
@@ -260,7 +260,7 @@ def curvature(vertices: Floats, faces: Ints) -> Curvature:
 
     k1, k2 = principal[:, f.corners]
     cubic = _fit_derivative(f, k1 * c * c + k2 * s * s, (k1 - k2) * c * s, k1 * s * s + k2 * c * c)
-    turned = _turn_cubic(cubic[:, None], c, s)
+    turned = turn_cubic(cubic[:, None], c, s)
     derivative = np.stack([_gather(f.corners, weights * part, count) for part in turned])
     directions = np.stack([e1.T, e2.T])
     return Curvature(normals.T.copy(), directions, principal, derivative, areas)
@@ -284,22 +284,3 @@ def _into_faces(f: _Faces, n: Floats, e1: Floats) -> tuple[Floats, Floats, Float
     lost = length < 1e-6  # a vertex normal straight against the face
     length[lost], c[lost] = 1.0, 1.0
     return n_t, n_b, c / length, s / length
-
-
-def feature_size(measured: Curvature, vertices: Floats) -> float:
-    """Length scale of the thresholds on derivatives: min(0.01/P10(|k|), 0.05 radius), mm.
-
-    Parameters
-    ----------
-    measured : Curvature
-    vertices : (v, 3) ndarray
-        mm.
-    """
-    used = measured.areas > 0
-    if not used.any():
-        return 0.0
-    points = vertices[used]
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    radius = float(np.sqrt(((points - middle) ** 2).sum(axis=1).max()))
-    low = float(np.percentile(np.abs(measured.principal[:, used]), 10))
-    return min(0.01 / low, 0.05 * radius) if low > 0 else 0.05 * radius

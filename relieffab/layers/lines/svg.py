@@ -1,11 +1,62 @@
-"""Strokes read back from the SVG they were written to."""
+"""Strokes to SVG, 1:1 in mm, and back."""
+
+from collections.abc import Iterable
 
 import numpy as np
+from lxml import etree
 
 from relieffab.errors import InputError
+from relieffab.layers.lines.kinds import NAMES, PRINCIPAL
 from relieffab.layers.model import Stroke
 
+_INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 _SVG = "{http://www.w3.org/2000/svg}"
+
+
+def strokes_to_svg(
+    strokes: Iterable[Stroke], size: tuple[float, float], *, width: float = 0.3
+) -> str:
+    """Write strokes as SVG, 1:1 in mm, one layer for each kind of line.
+
+    Parameters
+    ----------
+    strokes : iterable of Stroke
+    size : tuple of float
+        The panel's X and Y, mm.
+    width : float
+        Of lines that bound a form, mm; the others are half as wide.
+
+    Returns
+    -------
+    str
+    """
+    across, high = size
+    root = etree.Element(
+        f"{_SVG}svg",
+        nsmap={None: _SVG[1:-1], "inkscape": _INKSCAPE[1:-1]},
+        width=f"{across:g}mm",
+        height=f"{high:g}mm",
+        viewBox=f"0 0 {across:g} {high:g}",
+    )
+    strokes = tuple(strokes)
+    for kind in NAMES:
+        members = [stroke for stroke in strokes if stroke.kind == kind]
+        if not members:
+            continue
+        group = etree.SubElement(root, f"{_SVG}g", id=kind, fill="none", stroke="black")
+        group.set("stroke-width", f"{width if kind in PRINCIPAL else width / 2:g}")
+        group.set("stroke-linecap", "round")
+        group.set("stroke-linejoin", "round")
+        group.set(f"{_INKSCAPE}groupmode", "layer")
+        group.set(f"{_INKSCAPE}label", kind)
+        for stroke in members:
+            etree.SubElement(group, f"{_SVG}path", d=_path(stroke, high))
+    return etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8").decode()
+
+
+def _path(stroke: Stroke, high: float) -> str:
+    points = " ".join(f"{x:.3f},{high - y:.3f}" for x, y in stroke.points)
+    return f"M {points}" + (" Z" if stroke.closed else "")
 
 
 def strokes_from_svg(text: str, *, where: str = "SVG") -> tuple[Stroke, ...]:
@@ -24,8 +75,6 @@ def strokes_from_svg(text: str, *, where: str = "SVG") -> tuple[Stroke, ...]:
     InputError
         If it is no SVG, or has paths with anything but straight moves.
     """
-    from lxml import etree
-
     try:
         root = etree.fromstring(text.encode())
     except etree.XMLSyntaxError as fault:

@@ -1,7 +1,15 @@
 import numpy as np
 import pytest
 
-from relieffab.layers.trace import close_gaps, drop_short, hysteresis, runs, simplify, soften
+from relieffab.layers.lines.trace import (
+    close_gaps,
+    drop_short,
+    hysteresis,
+    narrowed,
+    runs,
+    simplify,
+    soften,
+)
 
 
 def flags(text):
@@ -38,8 +46,14 @@ def test_short_runs_are_dropped():
 
 def test_hysteresis_keeps_weak_parts_of_strong_lines_only():
     strength = np.array([0.3, 0.6, 0.3, 0.1, 0.3, 0.4, 0.9])
-    kept = hysteresis(flags("######."), strength, 0.25, 0.5)
+    kept = hysteresis(flags("###.##."), strength, 0.5)
     assert text(kept) == "###...."
+
+
+def test_narrowing_takes_the_ends_off_within_and_short_stretches_whole():
+    assert text(narrowed(flags("#####...#####...##..####"), 1)) == "####.....###.........###"
+    assert text(narrowed(flags("####"), 1)) == "####"
+    assert not narrowed(flags(".##."), 1).any()
 
 
 def test_softening_keeps_ends_and_straight_lines():

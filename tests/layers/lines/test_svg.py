@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 
 from relieffab.errors import InputError
-from relieffab.layers.drawing import strokes_to_svg
+from relieffab.layers.lines.svg import strokes_from_svg, strokes_to_svg
 from relieffab.layers.model import Stroke
-from relieffab.layers.vectors import strokes_from_svg
 
 
 def test_strokes_come_back_from_their_svg():

@@ -1,8 +1,8 @@
 import numpy as np
 
 from relieffab.grid import Grid
-from relieffab.layers.chains import Chains
-from relieffab.layers.visibility import borders_background, look_up, visible
+from relieffab.layers.lines.chains import Chains
+from relieffab.layers.lines.visibility import borders_background, look_up, visible
 
 GRID = Grid(20, 20, 0.5, (0.0, 10.0))
 
@@ -11,7 +11,7 @@ def chain(points, normal=(0.0, 0.0, 1.0), slack=0.0):
     points = np.asarray(points, float)
     n = len(points)
     normals = np.tile(np.asarray(normal, float), (n, 1))
-    return Chains("contour", points, np.ones(n), normals, np.full(n, slack), np.array([0, n]))
+    return Chains(points, np.ones(n), normals, np.full(n, slack), np.array([0, n]))
 
 
 def test_look_up_reads_the_pixel_under_a_point():

@@ -1,9 +1,8 @@
-"""Strokes as an image and as SVG."""
+"""Strokes as ink: an image with smooth edges, and its dilation and erosion."""
 
 from collections.abc import Iterable
 
 import numpy as np
-from lxml import etree
 from numpy.typing import NDArray
 
 from relieffab.compiled import kernel
@@ -11,10 +10,6 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
 
 Floats = NDArray[np.float64]
-
-LAYERS = ("outline", "contour", "crease", "boundary", "suggestive")
-_INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-_SVG = "http://www.w3.org/2000/svg"
 
 
 @kernel
@@ -76,47 +71,26 @@ def line_image(strokes: Iterable[Stroke], grid: Grid, *, width: float) -> Floats
     return image
 
 
-def strokes_to_svg(
-    strokes: Iterable[Stroke], size: tuple[float, float], *, width: float = 0.3
-) -> str:
-    """Write strokes as SVG, 1:1 in mm, one layer for each kind of line.
+def spread_ink(image: Floats, by: float, grid: Grid) -> Floats:
+    """Dilate or erode ink by a disc (Wang 2011, Fig. 4).
 
     Parameters
     ----------
-    strokes : iterable of Stroke
-    size : tuple of float
-        The panel's X and Y, mm.
-    width : float
-        Of the strokes drawn, mm.
+    image : (rows, cols) ndarray
+        Ink, 0 to 1.
+    by : float
+        Radius of the disc, mm; above 0 lines grow bolder, below 0 finer.
+    grid : Grid
 
     Returns
     -------
-    str
+    (rows, cols) ndarray
     """
-    across, high = size
-    root = etree.Element(
-        f"{{{_SVG}}}svg",
-        nsmap={None: _SVG, "inkscape": _INKSCAPE},
-        width=f"{across:g}mm",
-        height=f"{high:g}mm",
-        viewBox=f"0 0 {across:g} {high:g}",
-    )
-    strokes = tuple(strokes)
-    for kind in LAYERS:
-        members = [stroke for stroke in strokes if stroke.kind == kind]
-        if not members:
-            continue
-        group = etree.SubElement(root, f"{{{_SVG}}}g", id=kind, fill="none", stroke="black")
-        group.set("stroke-width", f"{width:g}")
-        group.set("stroke-linecap", "round")
-        group.set("stroke-linejoin", "round")
-        group.set(f"{{{_INKSCAPE}}}groupmode", "layer")
-        group.set(f"{{{_INKSCAPE}}}label", kind)
-        for stroke in members:
-            etree.SubElement(group, f"{{{_SVG}}}path", d=_path(stroke, high))
-    return etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8").decode()
+    radius = abs(by) / grid.pitch
+    if radius < 1:
+        return image
+    from skimage.morphology import dilation, erosion
 
-
-def _path(stroke: Stroke, high: float) -> str:
-    points = " ".join(f"{x:.3f},{high - y:.3f}" for x, y in stroke.points)
-    return f"M {points}" + (" Z" if stroke.closed else "")
+    reach = np.arange(-int(radius), int(radius) + 1)
+    disc = reach[:, None] ** 2 + reach**2 <= radius**2
+    return (dilation if by > 0 else erosion)(image, disc)  # type: ignore[no-any-return]

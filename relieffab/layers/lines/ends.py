@@ -1,0 +1,54 @@
+"""Ends of lines: led on to what lies straight ahead, so that no line stops just short."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+Floats = NDArray[np.float64]
+
+AHEAD = 6
+"""Samples from a line's end that tell where it is heading."""
+
+
+def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> list[Floats]:
+    """Lengthen open lines to what lies ahead of their ends.
+
+    Parameters
+    ----------
+    lines : sequence of (n, k) ndarray
+        X and Y first, mm.
+    drawn : sequence of (m, k) ndarray
+        Other lines that they may meet; they may meet each other too.
+    reach : float
+        How far ahead to look, within 45 degrees, mm.
+
+    Returns
+    -------
+    list of (n + 0, 1 or 2, k) ndarray
+    """
+    if not lines:
+        return []
+    every = [*lines, *drawn]
+    table = np.concatenate(every)
+    owner = np.repeat(np.arange(len(every)), [len(line) for line in every])
+    tree = cKDTree(table[:, :2])
+
+    def _onward(line: Floats, own: int) -> Floats:
+        """Add the point most straight ahead before the first one."""
+        heading = line[0, :2] - line[min(AHEAD, len(line) - 1), :2]
+        near = np.array(tree.query_ball_point(line[0, :2], reach), dtype=np.int64)
+        near = near[owner[near] != own]
+        jump = table[near, :2] - line[0, :2]
+        onward = jump @ heading
+        aside = np.abs(jump[:, 0] * heading[1] - jump[:, 1] * heading[0])
+        ahead = onward > aside
+        if not ahead.any():
+            return line
+        best = near[np.where(ahead, aside, np.inf).argmin()]
+        met = line[:1].copy()
+        met[0, :2] = table[best, :2]
+        return np.concatenate([met, line])
+
+    return [_onward(_onward(line, k)[::-1], k)[::-1] for k, line in enumerate(lines)]

@@ -1,0 +1,46 @@
+"""Highlights: where light from the eye would be brightest, the suggestive contours' bright twins.
+
+D. DeCarlo and S. Rusinkiewicz, "Highlight lines for conveying shape", NPAR 2007.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.layers.lines.chains import Chains
+from relieffab.layers.lines.contours import fading, radial_curvature, radial_derivative
+from relieffab.layers.lines.slopes import slope_of_directed
+from relieffab.layers.lines.surface import Surface
+from relieffab.layers.lines.zeros import zero_set
+
+Floats = NDArray[np.float64]
+
+LEAST_SUGGESTIVE = 0.02
+"""Fall of the radial curvature, in n.v/fs^2, worth a line (Rusinkiewicz's program)."""
+LEAST_PRINCIPAL = 0.04
+"""Fall of the slope of n.v along e1, in 1/fs^2, worth a line (the same)."""
+
+
+def suggestive_highlights(surface: Surface) -> Chains:
+    """n.v is largest towards the eye: kr = 0, falling towards it (sec. 3.1)."""
+
+    def strength(carried: Floats) -> Floats:
+        facing, fall = carried
+        seen = facing > 0
+        return np.where(seen, fading(fall / np.where(seen, facing, 1.0), LEAST_SUGGESTIVE), 0.0)
+
+    carried = np.stack([surface.facing, -radial_derivative(surface) * surface.size**2])
+    return zero_set(surface, radial_curvature(surface), carried, strength)
+
+
+def principal_highlights(surface: Surface) -> Chains:
+    """n.v is largest along e1, the direction of most bending: v.e1 = 0 (sec. 3.2)."""
+    e1 = surface.bend.directions[0]
+    u, _ = surface.in_principal_frame()
+    # The derivative of n.v along e1 is k1 u, for a convex k1 with the sign turned.
+    slope = -surface.bend.principal[0] * u
+    fall = -slope_of_directed(surface, slope, e1) * surface.size**2
+
+    def strength(carried: Floats) -> Floats:
+        return np.where(carried[0] > 0, fading(carried[1], LEAST_PRINCIPAL), 0.0)
+
+    return zero_set(surface, u, np.stack([surface.facing, fall]), strength, along=e1)

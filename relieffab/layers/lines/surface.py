@@ -1,0 +1,126 @@
+"""Surface: a mesh with all that its lines are found from."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.layers.eye import Eye
+from relieffab.layers.lines.curvature import Curvature, curvature
+from relieffab.layers.lines.edges import Edges, find_edges, split_at
+from relieffab.layers.lines.jets import osculate
+from relieffab.layers.lines.smooth import smooth
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A mesh in its true shape, how it bends and how it is seen.
+
+    Parameters
+    ----------
+    vertices : (v, 3) ndarray
+        On the panel, mm.
+    faces : (f, 3) ndarray of int
+    edges : Edges
+        Of the faces.
+    bend : Curvature
+        Of the faired copy.
+    size : float
+        Feature size, mm.
+    radius : float
+        Of the whole, mm.
+    eye : Eye
+    view : (v, 3) ndarray
+        Unit vectors from the surface to the eye.
+    """
+
+    vertices: Floats
+    faces: Ints
+    edges: Edges
+    bend: Curvature
+    size: float
+    radius: float
+    eye: Eye
+    view: Floats
+
+    @property
+    def facing(self) -> Floats:
+        """(v,) n.v, 1 where the surface faces the eye."""
+        return np.einsum("vk,vk->v", self.bend.normals, self.view)
+
+    def in_principal_frame(self) -> tuple[Floats, Floats]:
+        """Components u and w of the view along e1 and e2: (v,) each."""
+        e1, e2 = self.bend.directions
+        u, w = (np.einsum("vk,vk->v", e, self.view) for e in (e1, e2))
+        return u, w
+
+
+def prepare(
+    vertices: Floats,
+    faces: Ints,
+    sharp: NDArray[np.bool_],
+    edges: Edges,
+    *,
+    detail: float = 0.0,
+    eye: Eye | None = None,
+) -> Surface:
+    """Part a mesh at its creases, fair a copy and measure how it bends.
+
+    Parameters
+    ----------
+    vertices : (v, 3) ndarray
+        True shape on the panel, mm.
+    faces : (f, 3) ndarray of int
+    sharp : (e,) ndarray of bool
+        Creases: smooth on either side, so each side is measured alone.
+    edges : Edges
+        Of the faces.
+    detail : float
+        Wavelength that keeps half its height, mm; 0 takes nothing off.
+    eye : Eye, optional
+        Straight above, infinitely far, if not given.
+    """
+    eye = eye or Eye()
+    if sharp.any():
+        faces, parent = split_at(sharp, edges, faces)
+        vertices = vertices[parent]
+        edges = find_edges(faces, len(vertices))
+    rim = np.zeros(len(vertices), bool)
+    rim[edges.ends[edges.faces[:, 1] < 0]] = True
+    faired = smooth(vertices, faces, detail=detail, rim=rim)
+    bend = osculate(faired, edges, curvature(faired, faces))
+    radius = bounding_radius(faired[bend.areas > 0])
+    size = feature_size(bend, radius)
+    return Surface(vertices, faces, edges, bend, size, radius, eye, eye.towards(vertices))
+
+
+def bounding_radius(points: Floats) -> float:
+    """Radius about the middle of the points' box, mm; 0 if there are none."""
+    if len(points) == 0:
+        return 0.0
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    return float(np.sqrt(((points - middle) ** 2).sum(axis=1).max()))
+
+
+def feature_size(bend: Curvature, radius: float) -> float:
+    """Length scale of the thresholds on derivatives: min(0.01/P10(|k|), 0.05 radius), mm.
+
+    As Rusinkiewicz's program takes it, but with P10 over the surface's area, so
+    that it does not depend on where the mesh is dense.
+
+    Parameters
+    ----------
+    bend : Curvature
+    radius : float
+        Of the whole, mm.
+    """
+    if radius == 0:
+        return 0.0
+    bending = np.abs(bend.principal).ravel()
+    order = np.argsort(bending)
+    covered = np.cumsum(np.tile(bend.areas, 2)[order])
+    low = float(bending[order[np.searchsorted(covered, 0.1 * covered[-1])]])
+    return min(0.01 / low, 0.05 * radius) if low > 0 else 0.05 * radius
