@@ -110,7 +110,7 @@ SETTINGS = (
     Setting("form_length", _positive, "", "wider forms follow depth, finer ones shading"),
     Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
     Setting("line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth"),
-    Setting("line_detail", _not_negative, "1.2mm", "finer forms give no lines"),
+    Setting("line_detail", _not_negative, "1.8mm", "finer forms give no lines"),
     Setting("wall_angle", units.angle, "80deg", "of the figure's edge against the face"),
     Setting("machine", str, "3018-prover", "see `relieffab machines`"),
     Setting("material", str, "softwood", "see `relieffab machines`"),

@@ -190,25 +190,39 @@ def _fit_derivative(f: _Faces, e: Floats, m: Floats, g: Floats) -> Floats:
     return _solve_tridiagonal([a, c + 2 * a, 2 * c + a, c], [b, 2 * b, b], right)
 
 
-def _turn_tensor(t: Floats, c: Floats, s: Floats) -> Floats:
-    """Components of a symmetric tensor in a frame turned by the angle of (c, s)."""
+Basis = tuple[Floats, Floats, Floats, Floats]
+"""(a, b, c, d): new basis vectors a e1 + b e2 and c e1 + d e2."""
+
+
+def turned(cos: Floats, sin: Floats) -> Basis:
+    """Return the basis turned by an angle."""
+    return cos, sin, -sin, cos
+
+
+def tensor_in(t: Floats, basis: Basis) -> Floats:
+    """Components (3, ...) of a symmetric tensor in another basis."""
+    a, b, c, d = basis
     e, m, g = t
-    cc, ss, cs = c * c, s * s, c * s
     return np.stack(
-        [e * cc + 2 * m * cs + g * ss, (g - e) * cs + m * (cc - ss), e * ss - 2 * m * cs + g * cc]
+        [
+            e * (a * a) + m * (2 * a * b) + g * (b * b),
+            e * (a * c) + m * (a * d + b * c) + g * (b * d),
+            e * (c * c) + m * (2 * c * d) + g * (d * d),
+        ]
     )
 
 
-def turn_cubic(t: Floats, c: Floats, s: Floats) -> Floats:
-    """Components of a symmetric cubic form in a frame turned by the angle of (c, s)."""
+def cubic_in(t: Floats, basis: Basis) -> Floats:
+    """Components (4, ...) of a symmetric cubic form in another basis."""
+    a, b, c, d = basis
     t0, t1, t2, t3 = t
-    ccc, ccs, css, sss = c * c * c, c * c * s, c * s * s, s * s * s
+    aa, ab, bb, cc, cd, dd = a * a, a * b, b * b, c * c, c * d, d * d
     return np.stack(
         [
-            t0 * ccc + 3 * t1 * ccs + 3 * t2 * css + t3 * sss,
-            -t0 * ccs + t1 * (ccc - 2 * css) + t2 * (2 * ccs - sss) + t3 * css,
-            t0 * css + t1 * (sss - 2 * ccs) + t2 * (ccc - 2 * css) + t3 * ccs,
-            -t0 * sss + 3 * t1 * css - 3 * t2 * ccs + t3 * ccc,
+            t0 * (aa * a) + t1 * (3 * aa * b) + t2 * (3 * a * bb) + t3 * (bb * b),
+            t0 * (aa * c) + t1 * (2 * ab * c + aa * d) + t2 * (bb * c + 2 * ab * d) + t3 * (bb * d),
+            t0 * (a * cc) + t1 * (2 * a * cd + b * cc) + t2 * (a * dd + 2 * b * cd) + t3 * (b * dd),
+            t0 * (cc * c) + t1 * (3 * cc * d) + t2 * (3 * c * dd) + t3 * (dd * d),
         ]
     )
 
@@ -249,8 +263,8 @@ def curvature(vertices: Floats, faces: Ints) -> Curvature:
     e1 = _any_tangents(normals)
     n_t, n_b, c, s = _into_faces(f, normals, e1)
     form = _fit_curvature(f, n_t, n_b)
-    turned = _turn_tensor(form[:, None], c, s)
-    tensor = np.stack([_gather(f.corners, weights * part, count) for part in turned])
+    in_vertices = tensor_in(form[:, None], turned(c, s))
+    tensor = np.stack([_gather(f.corners, weights * part, count) for part in in_vertices])
 
     principal, cos, sin = diagonalise(tensor)
     e2 = _cross(normals, e1)
@@ -260,8 +274,8 @@ def curvature(vertices: Floats, faces: Ints) -> Curvature:
 
     k1, k2 = principal[:, f.corners]
     cubic = _fit_derivative(f, k1 * c * c + k2 * s * s, (k1 - k2) * c * s, k1 * s * s + k2 * c * c)
-    turned = turn_cubic(cubic[:, None], c, s)
-    derivative = np.stack([_gather(f.corners, weights * part, count) for part in turned])
+    in_vertices = cubic_in(cubic[:, None], turned(c, s))
+    derivative = np.stack([_gather(f.corners, weights * part, count) for part in in_vertices])
     directions = np.stack([e1.T, e2.T])
     return Curvature(normals.T.copy(), directions, principal, derivative, areas)
 

@@ -35,7 +35,7 @@ class Drawing:
     """
 
     kinds: tuple[str, ...] = USUAL
-    detail: float = 1.2
+    detail: float = 1.8
     min_length: float = 3.0
     spacing: float = 0.6
     tolerance: float = 0.01

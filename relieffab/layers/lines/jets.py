@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.compiled import kernel, parallel_kernel, prange
-from relieffab.layers.lines.curvature import Curvature, diagonalise, turn_cubic
+from relieffab.layers.lines.curvature import Curvature, cubic_in, diagonalise, tensor_in
 from relieffab.layers.lines.edges import Edges
 
 Floats = NDArray[np.float64]
@@ -196,10 +196,13 @@ def osculate(vertices: Floats, edges: Edges, rough: Curvature) -> Curvature:
             yyy - 3 * yy * py,
         ]
     )
-    principal, cos, sin = diagonalise(tensor)
     tangent = e1 - np.einsum("vk,vk->v", e1, normals)[:, None] * normals
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
     across = np.cross(normals, tangent)
+    # The heights' own basis, (1, 0, p) and (0, 1, q), is not orthonormal.
+    a, b, c, d = (np.einsum("vk,vk->v", i, j) for i in (tangent, across) for j in (e1, e2))
+    principal, cos, sin = diagonalise(tensor_in(tensor, (a, b, c, d)))
+    basis = cos * a + sin * c, cos * b + sin * d, cos * c - sin * a, cos * d - sin * b
     along = cos[:, None] * tangent + sin[:, None] * across
     directions = np.stack([along, np.cross(normals, along)])
     return replace(
@@ -207,5 +210,5 @@ def osculate(vertices: Floats, edges: Edges, rough: Curvature) -> Curvature:
         normals=np.where(fitted[:, None], normals, rough.normals),
         directions=np.where(fitted[:, None], directions, rough.directions),
         principal=np.where(fitted, principal, rough.principal),
-        derivative=np.where(fitted, turn_cubic(cubic / w, cos, sin), rough.derivative),
+        derivative=np.where(fitted, cubic_in(cubic / w, basis), rough.derivative),
     )

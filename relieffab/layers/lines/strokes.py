@@ -106,7 +106,7 @@ def draw_strokes(
         lines = _trace(kind.name, fine, keep, near, rules)
         if not kind.principal:
             lines = _thin_out(lines, spacing, rules)
-        drawn += _meeting(lines, drawn, spacing + 2 * step)
+        drawn += _meeting(lines, drawn, 2 * spacing)
     return tuple(_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
 
 
@@ -180,10 +180,16 @@ def _cut(kind: str, table: Floats, keep: Flags, near: Flags, rules: _Rules) -> l
     keep = close_gaps(keep, rules.gap) & close_gaps(table[:, 2] > low, rules.fading)
     table[:, 2] = np.maximum(table[:, 2], low)
     keep = close_gaps(hysteresis(keep, table[:, 2], HIGH), rules.gap)
-    keep = drop_short(keep & ~narrowed(near, rules.spacing), rules.min_length)
+    keep = _apart(keep, near, rules)
     if closed and keep.all():
         return [_Line(kind, table, True)]
     return [_Line(kind, table[a:b], False) for a, b in zip(*runs(keep), strict=True)]
+
+
+def _apart(keep: Flags, near: Flags, rules: _Rules) -> Flags:
+    """Keep what is long enough on its own, and lead it a little way to what it nears."""
+    alone = drop_short(keep & close_gaps(~near, 2 * rules.spacing), rules.min_length)
+    return hysteresis(keep & ~narrowed(near, rules.spacing), alone.astype(np.float64), 1.0)
 
 
 def _thin_out(lines: list[_Line], spacing: float, rules: _Rules) -> list[_Line]:
@@ -198,11 +204,10 @@ def _thin_out(lines: list[_Line], spacing: float, rules: _Rules) -> list[_Line]:
     near[np.where(owner[a] > owner[b], a, b)] = True
     out = []
     for k, line in enumerate(lines):
-        clear = ~narrowed(near[owner == k], rules.spacing)
+        clear = _apart(np.ones(len(line.table), bool), near[owner == k], rules)
         if clear.all():
             out.append(line)
             continue
-        clear = drop_short(clear, rules.min_length)
         out += [_Line(line.kind, line.table[i:j], False) for i, j in zip(*runs(clear), strict=True)]
     return out
 

@@ -14,6 +14,13 @@ from relieffab.layers.lines.smooth import smooth
 Floats = NDArray[np.float64]
 Ints = NDArray[np.integer]
 
+FEATURE = 0.05
+"""Feature size as a share of the radius.
+
+Rusinkiewicz's program takes 0.01/P10(|k|) where that is less; but how flat the
+flattest tenth of a mesh is tells more of the mesh than of the model.
+"""
+
 
 @dataclass(frozen=True, eq=False)
 class Surface:
@@ -28,8 +35,6 @@ class Surface:
         Of the faces.
     bend : Curvature
         Of the faired copy.
-    size : float
-        Feature size, mm.
     radius : float
         Of the whole, mm.
     eye : Eye
@@ -41,10 +46,14 @@ class Surface:
     faces: Ints
     edges: Edges
     bend: Curvature
-    size: float
     radius: float
     eye: Eye
     view: Floats
+
+    @property
+    def size(self) -> float:
+        """Feature size, the scale of thresholds on derivatives, mm."""
+        return FEATURE * self.radius
 
     @property
     def facing(self) -> Floats:
@@ -93,8 +102,7 @@ def prepare(
     faired = smooth(vertices, faces, detail=detail, rim=rim)
     bend = osculate(faired, edges, curvature(faired, faces))
     radius = bounding_radius(faired[bend.areas > 0])
-    size = feature_size(bend, radius)
-    return Surface(vertices, faces, edges, bend, size, radius, eye, eye.towards(vertices))
+    return Surface(vertices, faces, edges, bend, radius, eye, eye.towards(vertices))
 
 
 def bounding_radius(points: Floats) -> float:
@@ -103,24 +111,3 @@ def bounding_radius(points: Floats) -> float:
         return 0.0
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     return float(np.sqrt(((points - middle) ** 2).sum(axis=1).max()))
-
-
-def feature_size(bend: Curvature, radius: float) -> float:
-    """Length scale of the thresholds on derivatives: min(0.01/P10(|k|), 0.05 radius), mm.
-
-    As Rusinkiewicz's program takes it, but with P10 over the surface's area, so
-    that it does not depend on where the mesh is dense.
-
-    Parameters
-    ----------
-    bend : Curvature
-    radius : float
-        Of the whole, mm.
-    """
-    if radius == 0:
-        return 0.0
-    bending = np.abs(bend.principal).ravel()
-    order = np.argsort(bending)
-    covered = np.cumsum(np.tile(bend.areas, 2)[order])
-    low = float(bending[order[np.searchsorted(covered, 0.1 * covered[-1])]])
-    return min(0.01 / low, 0.05 * radius) if low > 0 else 0.05 * radius

@@ -6,6 +6,7 @@ from scipy.spatial import cKDTree
 
 from relieffab.layers.lines import contours
 from relieffab.layers.lines.chains import resample
+from relieffab.layers.lines.surface import FEATURE, bounding_radius
 from relieffab.subject import shapes
 
 BIG, SMALL = 3.0, 1.2
@@ -50,7 +51,7 @@ def case(prepared, name, turn, scale=1.0, jitter=0.0):
     counts = tuple(int(scale * n) for n in counts)
     shape = uneven(surface, counts, closed, jitter)
     vertices, faces = shapes.sheet(shape, counts, closed=(closed, closed))
-    return replace(prepared(vertices @ turn.T, faces), size=LARGE)
+    return replace(prepared(vertices @ turn.T, faces), radius=LARGE / FEATURE)
 
 
 def off(of, lines):
@@ -65,7 +66,7 @@ def test_lines_against_closed_form(patch, prepared, rotation, name, tilt, spin, 
     turn = rotation(tilt, spin)
     surface = case(prepared, name, turn, jitter=jitter)
     assert 39_000 < len(surface.vertices) < 41_000
-    bound = 0.005 * surface.radius
+    bound = 0.005 * bounding_radius(surface.vertices)
     form = patch(SURFACES[name][0])
 
     truth, kr = form.contours(turn[2])
