@@ -85,6 +85,7 @@ def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
         elevation if job.elevation is None else job.elevation,
         job.roll,
         up,
+        job.perspective,
     )
     return view, f"up axis guessed: {up} (say --up to choose)" if guessed else ""
 
@@ -104,12 +105,19 @@ def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
     """See the model; the part is report.json's `view`."""
     grid = Grid.on_panel(job.size, job.resolution)
     placed = place(mesh, view, job.size, margin=job.margin)
-    drawing = Drawing(width=job.line_width, detail=job.line_detail)
+    drawing = Drawing(
+        kinds=job.line_kinds,
+        detail=job.line_detail,
+        min_length=job.line_length,
+        width=job.line_width,
+        spread=job.line_spread,
+    )
     layers = layers_of(placed, grid, drawing=drawing)
     return layers, {
         "azimuth_deg": view.azimuth,
         "elevation_deg": view.elevation,
         "roll_deg": view.roll,
+        "perspective_deg": view.perspective,
         "up": view.up,
         "matrix": placed.matrix.tolist(),
     }

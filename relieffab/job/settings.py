@@ -50,6 +50,19 @@ def _not_negative(text: Any) -> float:
     return value
 
 
+def _signed(text: Any) -> float:
+    value = units.length(text)
+    if not -LONGEST < value < LONGEST:
+        raise InputError("the length is out of range", expected="under 100 m", found=str(text))
+    return value
+
+
+def _kinds(text: Any) -> tuple[str, ...]:
+    from relieffab.layers.lines.kinds import chosen
+
+    return chosen(str(text).replace(",", " ").split())
+
+
 def _size(text: Any) -> tuple[float, ...]:
     values = units.lengths(str(text))
     if len(values) != 2:
@@ -106,11 +119,21 @@ SETTINGS = (
     Setting("azimuth", units.angle, "", "where the viewer stands, 0 is the front, 90 the right"),
     Setting("elevation", units.angle, "", "how far above the model the viewer stands"),
     Setting("roll", units.angle, "0deg", "turn of the picture, counter-clockwise"),
+    Setting("perspective", units.angle, "0deg", "angle of view the model fills; 0 is orthographic"),
     Setting("up", _up, "", "the model's axis that points up, y or z; guessed if not given"),
     Setting("form_length", _positive, "", "wider forms follow depth, finer ones shading"),
+    Setting(
+        "line_kinds",
+        _kinds,
+        "outline contour boundary crease suggestive",
+        "lines drawn; also ridge, valley, apparent-ridge, suggestive-highlight, "
+        "principal-highlight",
+    ),
     Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
     Setting("line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth"),
     Setting("line_detail", _not_negative, "1.8mm", "finer forms give no lines"),
+    Setting("line_length", _not_negative, "3mm", "shorter lines are left out"),
+    Setting("line_spread", _signed, "0mm", "dilates the line image, or erodes it if negative"),
     Setting("wall_angle", units.angle, "80deg", "of the figure's edge against the face"),
     Setting("machine", str, "3018-prover", "see `relieffab machines`"),
     Setting("material", str, "softwood", "see `relieffab machines`"),
@@ -140,11 +163,15 @@ class Job:
     azimuth: float | None
     elevation: float | None
     roll: float
+    perspective: float
     up: str | None
     form_length: float | None
+    line_kinds: tuple[str, ...]
     line_width: float
     line_depth: float | None
     line_detail: float
+    line_length: float
+    line_spread: float
     wall_angle: float
     machine: str
     material: str

@@ -40,7 +40,8 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
     normals = pixel_normals(raster, placed.vertices, placed.faces, grid)
     lights = default_lights()
     strokes = draw_strokes(placed, raster, grid, drawing)
-    ink = line_image(strokes, grid, width=drawing.width)
+    dark = [stroke for stroke in strokes if not stroke.light]
+    ink = line_image(dark, grid, width=drawing.width)
     return Layers(
         grid=grid,
         depth=np.where(mask, raster.depth, 0.0),

@@ -20,7 +20,7 @@ class Stroke:
     points : (n, 2) ndarray
         X and Y on the panel, mm.
     kind : str
-        'outline', 'contour', 'suggestive', 'crease' or 'boundary'.
+        A name of `layers.lines.kinds.KINDS`.
     strength : (n,) ndarray
         0 (barely there) to 1.
     closed : bool
@@ -31,6 +31,11 @@ class Stroke:
     kind: str
     strength: Floats
     closed: bool = False
+
+    @property
+    def light(self) -> bool:
+        """Whether it marks a highlight: drawn, but neither inked nor cut."""
+        return self.kind.endswith("highlight")
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 
 
 def stroke_lines(strokes: Sequence[Stroke]) -> list[Floats]:
-    """Turn strokes into lines without doubled points.
+    """Turn strokes that are to be cut into lines without doubled points.
 
     Returns
     -------
@@ -22,6 +22,8 @@ def stroke_lines(strokes: Sequence[Stroke]) -> list[Floats]:
     """
     lines = []
     for stroke in strokes:
+        if stroke.light:
+            continue
         points = np.asarray(stroke.points, dtype=np.float64)
         if stroke.closed:
             points = np.concatenate([points, points[:1]])

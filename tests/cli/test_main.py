@@ -58,7 +58,9 @@ def test_make_leaves_exactly_the_files_of_a_job(made):
 def test_the_report_has_schema_1(made):
     report = json.loads((made / "report.json").read_text())
     assert report["schema"] == 1
-    assert set(report["view"]) == {"azimuth_deg", "elevation_deg", "roll_deg", "up", "matrix"}
+    assert set(report["view"]) == {
+        "azimuth_deg", "elevation_deg", "roll_deg", "perspective_deg", "up", "matrix",
+    }  # fmt: skip
     assert set(report["relief"]) >= {
         "file", "rows", "cols", "pitch_mm", "origin_mm", "depth_mm", "energy", "iterations",
         "seconds",
@@ -246,6 +248,11 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--roll="], "roll"),
         (["--up", "x"], "y or z"),
         (["--wall-angle", "95"], "wall"),
+        (["--perspective", "150"], "angle of view"),
+        (["--line-kinds", "outline, countour"], "did you mean contour"),
+        (["--line-kinds", ","], "needs a kind of line"),
+        (["--line-length", "-1mm"], "0 or more"),
+        (["--line-spread", "wide"], "not a length"),
     ],
 )
 def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):

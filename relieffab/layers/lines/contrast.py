@@ -18,12 +18,14 @@ FARTHEST = 10.0
 """How far the sides of a valley are followed, mm."""
 FLAT_ON = np.pi / 2
 """What a side counts that is hidden before it has fallen, radians."""
+SOON = 2.0
+"""How near a line a side must be hidden to count so, mm."""
 JUMP = 6.0
 """Slope from pixel to pixel that parts one surface from another."""
 
 
 @kernel
-def _rises(points, across, angle, depth, reach, jump, out):  # type: ignore[no-untyped-def]
+def _rises(points, across, angle, depth, reach, soon, jump, out):  # type: ignore[no-untyped-def]
     """Follow the angle off the view on both sides of each point; write its lesser fall."""
     rows, cols = angle.shape
     for k in range(len(points)):
@@ -42,7 +44,7 @@ def _rises(points, across, angle, depth, reach, jump, out):  # type: ignore[no-u
                 j = int(np.rint(c0 + side * step * across[k, 1]))
                 gone = not (0 <= i < rows and 0 <= j < cols) or angle[i, j] < 0.0
                 if gone or abs(depth[i, j] - before) > jump:
-                    if last <= least:  # cut off while it was still falling
+                    if step <= soon and last <= least:  # cut off while it was still falling
                         least = start - FLAT_ON
                     break
                 before, last = depth[i, j], angle[i, j]
@@ -97,8 +99,8 @@ def contrast(chains: Chains, angles: Floats, raster: Raster, grid: Grid) -> Floa
     across /= np.maximum(np.hypot(across[:, 0], across[:, 1]), 1e-9)[:, None]
     points = np.stack([row - 0.5, col - 0.5], axis=1)
     out = np.empty(len(points))
-    reach = int(FARTHEST / grid.pitch)
-    _rises(points, across, angles, raster.depth, reach, JUMP * grid.pitch, out)
+    reach, soon = int(FARTHEST / grid.pitch), int(SOON / grid.pitch)
+    _rises(points, across, angles, raster.depth, reach, soon, JUMP * grid.pitch, out)
     return out
 
 

@@ -36,7 +36,7 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
     tree = cKDTree(table[:, :2])
 
     def _onward(line: Floats, own: int) -> Floats:
-        """Add the point most straight ahead before the first one."""
+        """Add the point before the first one that lies straight ahead and near."""
         heading = line[0, :2] - line[min(AHEAD, len(line) - 1), :2]
         near = np.array(tree.query_ball_point(line[0, :2], reach), dtype=np.int64)
         near = near[owner[near] != own]
@@ -46,7 +46,7 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
         ahead = onward > aside
         if not ahead.any():
             return line
-        best = near[np.where(ahead, aside, np.inf).argmin()]
+        best = near[np.where(ahead, aside + 0.5 * onward, np.inf).argmin()]
         met = line[:1].copy()
         met[0, :2] = table[best, :2]
         return np.concatenate([met, line])

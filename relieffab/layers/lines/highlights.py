@@ -36,9 +36,9 @@ def principal_highlights(surface: Surface) -> Chains:
     """n.v is largest along e1, the direction of most bending: v.e1 = 0 (sec. 3.2)."""
     e1 = surface.bend.directions[0]
     u, _ = surface.in_principal_frame()
-    # The derivative of n.v along e1 is k1 u, for a convex k1 with the sign turned.
-    slope = -surface.bend.principal[0] * u
-    fall = -slope_of_directed(surface, slope, e1) * surface.size**2
+    # Moving along e1 turns the normal by k1 e1, so n.v grows by k1 u.
+    growth = surface.bend.principal[0] * u
+    fall = -slope_of_directed(surface, growth, e1) * surface.size**2
 
     def strength(carried: Floats) -> Floats:
         return np.where(carried[0] > 0, fading(carried[1], LEAST_PRINCIPAL), 0.0)

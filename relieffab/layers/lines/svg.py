@@ -43,7 +43,8 @@ def strokes_to_svg(
         members = [stroke for stroke in strokes if stroke.kind == kind]
         if not members:
             continue
-        group = etree.SubElement(root, f"{_SVG}g", id=kind, fill="none", stroke="black")
+        ink = "goldenrod" if members[0].light else "black"
+        group = etree.SubElement(root, f"{_SVG}g", id=kind, fill="none", stroke=ink)
         group.set("stroke-width", f"{width if kind in PRINCIPAL else width / 2:g}")
         group.set("stroke-linecap", "round")
         group.set("stroke-linejoin", "round")

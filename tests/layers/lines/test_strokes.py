@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.eye import Eye
 from relieffab.layers.lines.drawing import Drawing
@@ -266,13 +265,6 @@ def test_bad_triangles_do_no_harm():
     strokes = draw((vertices, faces))
     assert all(np.isfinite(s.points).all() for s in strokes)
     assert "suggestive" not in kinds(strokes)
-
-
-@pytest.mark.parametrize("name", ["detail", "min_length", "spacing", "tolerance"])
-@pytest.mark.parametrize("value", [-1.0, np.nan])
-def test_lengths_must_be_lengths(name, value):
-    with pytest.raises(InputError, match=name):
-        draw(ball(10.0, (20, 15, 0), rows=8, cols=8), **{name: value})
 
 
 def test_a_model_out_of_sight_has_no_strokes():
