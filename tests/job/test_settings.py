@@ -4,6 +4,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.job.settings import SETTINGS, Job, default_job, resolve
+from relieffab.layers.lines.drawing import Drawing
 
 
 def test_the_job_has_a_field_for_every_setting():
@@ -38,3 +39,14 @@ def test_values_of_a_wrong_kind_name_their_setting(value):
 
 def test_a_number_will_do_for_a_length():
     assert resolve([("job.toml", {"depth": 3})])["depth"].value == 3.0
+
+
+def test_lines_are_drawn_alike_with_and_without_a_job():
+    job, drawing = default_job(), Drawing()
+    assert job.line_kinds == drawing.kinds
+    assert (job.line_width, job.line_detail) == (drawing.width, drawing.detail)
+    assert (job.line_length, job.line_spread) == (drawing.min_length, drawing.spread)
+
+
+def test_kinds_of_line_are_words():
+    assert default_job(line_kinds="ridge, outline").line_kinds == ("outline", "ridge")

@@ -91,3 +91,36 @@ def test_the_format_decides_where_the_foot_does_not():
 def test_unknown_view_is_refused_with_a_suggestion():
     with pytest.raises(InputError, match="did you mean front"):
         named_view("frontal", "z")
+
+
+@pytest.mark.parametrize("angle", [5.0, 40.0, 120.0])
+def test_a_model_in_perspective_fills_the_room_and_matches_its_matrix(model, angle):
+    placed = place(model, View(20, 30, 10, "y", angle), (120.0, 90.0), margin=6.0)
+    low, high = placed.vertices.min(axis=0), placed.vertices.max(axis=0)
+    assert high[2] == pytest.approx(0, abs=1e-9)
+    assert np.minimum(low[:2], [120, 90] - high[:2]).min() == pytest.approx(6)
+    homogeneous = np.column_stack([model.vertices, np.ones(len(model.vertices))]) @ placed.matrix.T
+    np.testing.assert_allclose(homogeneous[:, :3] / homogeneous[:, 3:], placed.vertices, atol=1e-9)
+    np.testing.assert_allclose(placed.eye.project(placed.solid), placed.vertices)
+
+
+def test_the_bounding_sphere_fills_the_angle_of_view():
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    placed = place(make_mesh(ball.vertices, ball.faces), View(perspective=60), (90, 90), margin=0)
+    at = np.array([placed.eye.x, placed.eye.y, 1 / placed.eye.nearness])
+    middle = (placed.solid.min(axis=0) + placed.solid.max(axis=0)) / 2
+    radius = np.ptp(placed.solid[:, 0]) / 2
+    assert np.degrees(np.arcsin(radius / np.linalg.norm(at - middle))) == pytest.approx(30, abs=0.1)
+
+
+def test_a_small_angle_of_view_is_almost_orthographic(model):
+    near = place(model, View(20, 30, up="y", perspective=0.01), (120.0, 90.0), margin=6.0)
+    far = place(model, View(20, 30, up="y"), (120.0, 90.0), margin=6.0)
+    np.testing.assert_allclose(near.vertices, far.vertices, atol=0.02)
+    np.testing.assert_array_equal(far.solid, far.vertices)
+
+
+@pytest.mark.parametrize("angle", [-1.0, 121.0])
+def test_an_angle_of_view_out_of_range_is_refused(angle):
+    with pytest.raises(InputError, match="angle of view"):
+        View(perspective=angle)

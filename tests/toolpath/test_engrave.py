@@ -26,3 +26,10 @@ def test_curves_keep_their_shape():
 
 def test_strokes_of_one_place_are_left_out():
     assert stroke_lines([stroke([[1, 1], [1, 1]]), stroke([[1, 1]])]) == []
+
+
+def test_highlights_are_not_cut():
+    points = np.array([[0.0, 0.0], [2.0, 0.0]])
+    light = Stroke(points, "suggestive-highlight", np.ones(2))
+    assert light.light
+    assert len(stroke_lines([light, stroke(points)])) == 1

@@ -1,10 +1,8 @@
 import numpy as np
 import pytest
-from lxml import etree
 
 from relieffab.grid import Grid
-from relieffab.layers.lines.image import line_image
-from relieffab.layers.lines.svg import strokes_to_svg
+from relieffab.layers.lines.image import line_image, spread_ink
 from relieffab.layers.model import Stroke
 
 GRID = Grid(60, 80, 0.25, (1.0, 16.0))
@@ -59,17 +57,19 @@ def test_far_off_strokes_and_none_leave_no_ink():
     assert line_image([stroke([[-50, -50], [-40, 90]])], GRID, width=1.0).max() == 0
 
 
-def test_svg_is_in_mm_with_y_down_and_a_layer_per_kind():
-    strokes = [
-        stroke([[1, 2], [3, 4]]),
-        stroke([[0, 0], [10, 0], [10, 5]], kind="outline", closed=True),
-    ]
-    root = etree.fromstring(strokes_to_svg(strokes, (120.0, 90.0)).encode())
-    assert (root.get("width"), root.get("height")) == ("120mm", "90mm")
-    assert root.get("viewBox") == "0 0 120 90"
-    groups = list(root)
-    assert [g.get("id") for g in groups] == ["outline", "contour"]
-    label = "{http://www.inkscape.org/namespaces/inkscape}"
-    assert {g.get(label + "groupmode") for g in groups} == {"layer"}
-    assert groups[0][0].get("d") == "M 0.000,90.000 10.000,90.000 10.000,85.000 Z"
-    assert groups[1][0].get("d") == "M 1.000,88.000 3.000,86.000"
+def test_spreading_dilates_and_erodes_by_a_disc():
+    dot = np.zeros(GRID.shape)
+    dot[30, 40] = 0.7
+    wide = spread_ink(dot, 0.75, GRID)  # three pixels
+    i, j = np.nonzero(wide)
+    assert (np.hypot(i - 30, j - 40) <= 3).all() and len(i) == 29
+    assert set(wide[wide > 0]) == {0.7}
+    back = spread_ink(wide, -0.75, GRID)
+    np.testing.assert_array_equal(back, dot)
+    np.testing.assert_array_equal(spread_ink(dot, 0.2, GRID), dot)
+
+
+def test_a_line_spread_by_a_third_of_its_width_is_bolder():
+    line = line_image([stroke([[4, 6.125], [15, 6.125]])], GRID, width=0.75)
+    assert spread_ink(line, 0.25, GRID).sum() > 1.5 * line.sum()
+    assert spread_ink(line, -0.25, GRID).sum() < 0.5 * line.sum()

@@ -1,5 +1,8 @@
 import numpy as np
 import pytest
+from scipy import ndimage
+from scipy.spatial import cKDTree
+from skimage.draw import polygon2mask
 
 from relieffab.grid import Grid
 from relieffab.layers.lines.outline import outlines
@@ -40,3 +43,22 @@ def test_a_figure_that_fills_the_grid_is_outlined_at_its_border():
 
 def test_nothing_has_no_outline():
     assert outlines(np.zeros((300, 400), bool), GRID) == []
+
+
+def test_every_pixel_is_on_its_side_or_within_half_a_pixel():
+    # Blobs, with fingers and gaps one pixel wide.
+    rng = np.random.default_rng(3)
+    mask = ndimage.gaussian_filter(rng.normal(size=(300, 400)), 9) > 0.01
+    mask[100:101, 150:260] = True
+    mask[200:260, 300:301] = False
+    mask[[0, -1]] = mask[:, [0, -1]] = False
+    inside, rims = np.zeros_like(mask), []
+    for line in outlines(mask, GRID):
+        row, col = GRID.to_index(line[:, 0], line[:, 1])
+        rim = np.stack([row - 0.5, col - 0.5], axis=1)
+        inside ^= polygon2mask(mask.shape, rim)
+        ahead = np.roll(rim, -1, axis=0)
+        rims += [rim + t * (ahead - rim) for t in (0.0, 0.25, 0.5, 0.75)]
+    wrong = np.argwhere(inside != mask)
+    assert len(wrong) < 0.25 * np.count_nonzero(mask[1:] != mask[:-1])
+    assert cKDTree(np.concatenate(rims)).query(wrong)[0].max() <= 0.5
