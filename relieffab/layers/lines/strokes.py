@@ -17,6 +17,7 @@ from relieffab.layers.lines.edges import Edges, find_edges
 from relieffab.layers.lines.ends import lead_on
 from relieffab.layers.lines.kinds import KINDS, PRINCIPAL, Kind
 from relieffab.layers.lines.outline import outlines
+from relieffab.layers.lines.snap import snap
 from relieffab.layers.lines.surface import Surface, prepare
 from relieffab.layers.lines.trace import (
     close_gaps,
@@ -96,6 +97,8 @@ def draw_strokes(
         if kind.name not in drawing.kinds or kind.name == "outline":
             continue
         fine = resample(mesh.lines(kind), step)
+        if kind.name == "contour":
+            fine = snap(fine, raster.depth, grid)
         keep = visible(fine, raster.depth, grid)
         if kind.name == "contour":
             keep &= ~borders_background(fine, raster.mask, grid, reach=2.5 * step)

@@ -1,0 +1,72 @@
+"""Contours moved to where the picture's depth really steps."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.compiled import kernel
+from relieffab.grid import Grid
+from relieffab.layers.lines.chains import Chains
+
+Floats = NDArray[np.float64]
+
+STEEPEST = 6.0
+"""Slope from pixel to pixel that is a step."""
+REACH = 0.5
+"""How far to look, as a share of the local triangles' size."""
+
+
+@kernel
+def _nearest_steps(points, across, reach, depth, jump, out):  # type: ignore[no-untyped-def]
+    """Find how far along its normal each point's nearest fall of depth lies, in pixels.
+
+    Half a pixel at a time, away from the point on both sides; what lies further along
+    the normal must be the lower one.  0 where none is found within reach.
+    """
+    rows, cols = depth.shape
+    for k in range(len(points)):
+        out[k] = 0.0
+        best = reach[k] + 0.5
+        for side in (-1.0, 1.0):
+            before = np.inf
+            for step in range(int(2 * reach[k]) + 3):
+                far = side * 0.5 * step
+                i = int(np.rint(points[k, 0] + far * across[k, 0]))
+                j = int(np.rint(points[k, 1] + far * across[k, 1]))
+                here = -1e30
+                if 0 <= i < rows and 0 <= j < cols:
+                    here = depth[i, j]
+                if step > 0 and side * (before - here) > jump and abs(far) - 0.25 < best:
+                    best = abs(far) - 0.25
+                    out[k] = far - side * 0.25
+                before = here
+
+
+def snap(chains: Chains, depth: Floats, grid: Grid) -> Chains:
+    """Move contours along their normals to the nearest step of the depth image.
+
+    The zero set of n.v is that of a smooth surface; the mesh that is seen turns
+    away along its edges, up to half a triangle off.  Where triangles are finer
+    than pixels nothing moves.
+
+    Parameters
+    ----------
+    chains : Chains
+    depth : (rows, cols) ndarray
+        mm, larger is nearer, -inf where nothing is seen.
+    grid : Grid
+    """
+    reach = REACH * chains.slack / grid.pitch
+    row, col = grid.to_index(chains.points[:, 0], chains.points[:, 1])
+    across = np.stack([-chains.normals[:, 1], chains.normals[:, 0]], axis=1)
+    across /= np.maximum(np.hypot(across[:, 0], across[:, 1]), 1e-9)[:, None]
+    filled = np.where(np.isfinite(depth), depth, -1e30)
+    shift = np.empty(len(row))
+    points = np.stack([row - 0.5, col - 0.5], axis=1)
+    _nearest_steps(points, across, reach, filled, STEEPEST * grid.pitch, shift)
+    shift = np.where(reach > 1.0, shift, 0.0) * grid.pitch
+    moved = chains.points.copy()
+    moved[:, 0] += shift * across[:, 1]
+    moved[:, 1] -= shift * across[:, 0]
+    return replace(chains, points=moved)
