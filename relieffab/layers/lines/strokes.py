@@ -39,6 +39,8 @@ Flags = NDArray[np.bool_]
 
 LOW, HIGH = 0.25, 0.5
 """Strength at which a secondary line may go on, and what any line must reach somewhere."""
+WELL_APART = 1.5
+"""What a line must be off the stronger ones somewhere, in units of the spacing."""
 SOFTNESS = 0.25
 """Deviation of the Gaussian along lines that cross triangles, as a share of the detail."""
 
@@ -105,10 +107,10 @@ def draw_strokes(
         if kind.name == "suggestive":
             telling = contrast_strength(fine, mesh.surface, raster, grid)
             fine = replace(fine, strength=np.minimum(fine.strength, telling))
-        near = _near(fine.points[:, :2], drawn, spacing)
-        lines = _trace(kind.name, fine, keep, near, rules)
-        if not kind.principal:
-            lines = _thin_out(lines, spacing, rules)
+        room = _room(fine.points[:, :2], drawn, spacing)
+        lines = _trace(kind.name, fine, keep, room, rules)
+        if kind.of_surface is not None:  # a mesh's own edges meet, and may lie close
+            lines = _thin_out(lines, spacing / 2 if kind.principal else spacing, rules)
         drawn += _meeting(lines, drawn, 2 * spacing)
     return tuple(_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
 
@@ -150,15 +152,16 @@ class _Mesh:
         return edge_lines(self.placed.vertices, self.edges.ends[here])
 
 
-def _near(points: Floats, drawn: list[_Line], spacing: float) -> Flags:
-    """Tell which points lie within `spacing` mm of a line drawn before."""
+def _room(points: Floats, drawn: list[_Line], spacing: float) -> Floats:
+    """Distance of points from the lines drawn before, in units of the spacing, 2 at most."""
     if not drawn or len(points) == 0:
-        return np.zeros(len(points), bool)
+        return np.full(len(points), 2.0)
     tree = cKDTree(np.concatenate([line.table[:, :2] for line in drawn]))
-    return np.isfinite(tree.query(points, distance_upper_bound=spacing)[0])
+    far = max(2 * spacing, 1e-9)
+    return np.minimum(tree.query(points, distance_upper_bound=far)[0], far) / (far / 2)
 
 
-def _trace(kind: str, chains: Chains, keep: Flags, near: Flags, rules: _Rules) -> list[_Line]:
+def _trace(kind: str, chains: Chains, keep: Flags, room: Floats, rules: _Rules) -> list[_Line]:
     """Cut the lines worth drawing out of sampled chains, the longest first."""
     lines = []
     for start, stop in pairwise(chains.begin):
@@ -166,48 +169,51 @@ def _trace(kind: str, chains: Chains, keep: Flags, near: Flags, rules: _Rules) -
             continue
         here = slice(start, stop)
         table = np.column_stack([chains.points[here, :2], chains.strength[here]])
-        lines += _cut(kind, table, keep[here], near[here], rules)
+        lines += _cut(kind, table, keep[here], room[here], rules)
     return sorted(lines, key=lambda line: -len(line.table))
 
 
-def _cut(kind: str, table: Floats, keep: Flags, near: Flags, rules: _Rules) -> list[_Line]:
+def _cut(kind: str, table: Floats, keep: Flags, room: Floats, rules: _Rules) -> list[_Line]:
     """Cut the lines worth drawing out of one."""
     closed = len(table) > 2 and bool((table[0, :2] == table[-1, :2]).all())
     if closed:
         first = int(np.argmin(keep))
         table = np.roll(table[:-1], -first, axis=0)
-        keep, near = np.roll(keep[:-1], -first), np.roll(near[:-1], -first)
+        keep, room = np.roll(keep[:-1], -first), np.roll(room[:-1], -first)
     sigma = 0.0 if kind in ("crease", "boundary") else rules.softness
     table = soften(table, sigma, closed=closed).copy()
     low = HIGH if kind in PRINCIPAL else LOW
     keep = close_gaps(keep, rules.gap) & close_gaps(table[:, 2] > low, rules.fading)
     table[:, 2] = np.maximum(table[:, 2], low)
     keep = close_gaps(hysteresis(keep, table[:, 2], HIGH), rules.gap)
-    keep = _apart(keep, near, rules)
+    keep = _apart(keep, room, rules)
     if closed and keep.all():
         return [_Line(kind, table, True)]
     return [_Line(kind, table[a:b], False) for a, b in zip(*runs(keep), strict=True)]
 
 
-def _apart(keep: Flags, near: Flags, rules: _Rules) -> Flags:
+def _apart(keep: Flags, room: Floats, rules: _Rules) -> Flags:
     """Keep what is long enough on its own, and lead it a little way to what it nears."""
+    near = room < 1
     alone = drop_short(keep & close_gaps(~near, 2 * rules.spacing), rules.min_length)
+    alone = hysteresis(alone, room, WELL_APART)
     return hysteresis(keep & ~narrowed(near, rules.spacing), alone.astype(np.float64), 1.0)
 
 
 def _thin_out(lines: list[_Line], spacing: float, rules: _Rules) -> list[_Line]:
     """Leave out what runs beside a longer line of the same kind."""
-    if not lines:
+    if not lines or spacing == 0:
         return lines
     owner = np.repeat(np.arange(len(lines)), [len(line.table) for line in lines])
     points = np.concatenate([line.table[:, :2] for line in lines])
-    pairs = cKDTree(points).query_pairs(spacing, output_type="ndarray")
+    pairs = cKDTree(points).query_pairs(2 * spacing, output_type="ndarray")
     a, b = pairs[owner[pairs[:, 0]] != owner[pairs[:, 1]]].T
-    near = np.zeros(len(points), bool)
-    near[np.where(owner[a] > owner[b], a, b)] = True
+    room = np.full(len(points), 2.0)
+    apart = np.hypot(*(points[a] - points[b]).T) / spacing
+    np.minimum.at(room, np.where(owner[a] > owner[b], a, b), apart)
     out = []
     for k, line in enumerate(lines):
-        clear = _apart(np.ones(len(line.table), bool), near[owner == k], rules)
+        clear = _apart(np.ones(len(line.table), bool), room[owner == k], rules)
         if clear.all():
             out.append(line)
             continue
