@@ -108,8 +108,12 @@ def draw_strokes(
             telling = contrast_strength(fine, mesh.surface, raster, grid)
             fine = replace(fine, strength=np.minimum(fine.strength, telling))
         room = _room(fine.points[:, :2], drawn, spacing)
-        lines = _trace(kind.name, fine, keep, room, rules)
-        if kind.of_surface is not None:  # a mesh's own edges meet, and may lie close
+        if kind.of_surface is None:
+            # A mesh's own edges come in pieces that meet, and may lie close.
+            pieces = replace(rules, min_length=rules.min_length / 3)
+            lines = _trace(kind.name, fine, keep, room, pieces)
+        else:
+            lines = _trace(kind.name, fine, keep, room, rules)
             lines = _thin_out(lines, spacing / 2 if kind.principal else spacing, rules)
         drawn += _meeting(lines, drawn, 2 * spacing)
     return tuple(_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
