@@ -8,6 +8,7 @@ from relieffab.grid import Grid
 from relieffab.layers.lines.chains import Chains
 from relieffab.layers.lines.contours import fading
 from relieffab.layers.lines.surface import Surface
+from relieffab.layers.lines.visibility import in_pixels
 from relieffab.layers.raster import Raster, interpolate
 
 Floats = NDArray[np.float64]
@@ -94,10 +95,7 @@ def contrast(chains: Chains, angles: Floats, raster: Raster, grid: Grid) -> Floa
     (n,) ndarray
         Radians.
     """
-    row, col = grid.to_index(chains.points[:, 0], chains.points[:, 1])
-    across = np.stack([-chains.normals[:, 1], chains.normals[:, 0]], axis=1)
-    across /= np.maximum(np.hypot(across[:, 0], across[:, 1]), 1e-9)[:, None]
-    points = np.stack([row - 0.5, col - 0.5], axis=1)
+    points, across = in_pixels(chains, grid)
     out = np.empty(len(points))
     reach, soon = int(FARTHEST / grid.pitch), int(SOON / grid.pitch)
     _rises(points, across, angles, raster.depth, reach, soon, JUMP * grid.pitch, out)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from relieffab.compiled import kernel
 from relieffab.grid import Grid
 from relieffab.layers.lines.chains import Chains
+from relieffab.layers.lines.visibility import in_pixels
 
 Floats = NDArray[np.float64]
 
@@ -58,12 +59,9 @@ def snap(chains: Chains, depth: Floats, grid: Grid) -> Chains:
     grid : Grid
     """
     reach = REACH * chains.slack / grid.pitch
-    row, col = grid.to_index(chains.points[:, 0], chains.points[:, 1])
-    across = np.stack([-chains.normals[:, 1], chains.normals[:, 0]], axis=1)
-    across /= np.maximum(np.hypot(across[:, 0], across[:, 1]), 1e-9)[:, None]
+    points, across = in_pixels(chains, grid)
     filled = np.where(np.isfinite(depth), depth, -1e30)
-    shift = np.empty(len(row))
-    points = np.stack([row - 0.5, col - 0.5], axis=1)
+    shift = np.empty(len(points))
     _nearest_steps(points, across, reach, filled, STEEPEST * grid.pitch, shift)
     shift = np.where(reach > 1.0, shift, 0.0) * grid.pitch
     moved = chains.points.copy()

@@ -21,6 +21,22 @@ def look_up(image: Floats, x: Floats, y: Floats, grid: Grid, outside: float) -> 
     return np.where(inside, values, outside)
 
 
+def in_pixels(chains: Chains, grid: Grid) -> tuple[Floats, Floats]:
+    """Points and the directions their normals point to, as seen, in rows and columns.
+
+    Returns
+    -------
+    points : (n, 2) ndarray
+        Row and column; pixel centres are at whole numbers.
+    outward : (n, 2) ndarray
+        Unit; 0 where the normal points straight to the viewer.
+    """
+    row, col = grid.to_index(chains.points[:, 0], chains.points[:, 1])
+    outward = np.stack([-chains.normals[:, 1], chains.normals[:, 0]], axis=1)
+    length = np.hypot(outward[:, 0], outward[:, 1])[:, None]
+    return np.stack([row - 0.5, col - 0.5], axis=1), outward / np.maximum(length, 1e-9)
+
+
 def visible(chains: Chains, depth: Floats, grid: Grid) -> Flags:
     """Tell which points lie at the depth that is seen, or nearer.
 
