@@ -133,7 +133,8 @@ def write_layers(layers: Layers, job: Job, folder: Path) -> None:
     (inside / "depth.png").write_bytes(png16(near))
     (inside / "lambert.png").write_bytes(png16(layers.shading.mean(axis=0)))
     (inside / "lines.png").write_bytes(png16(1.0 - layers.lines))
-    (inside / "lines.svg").write_text(strokes_to_svg(layers.strokes, job.size), encoding="utf-8")
+    drawing = strokes_to_svg(layers.strokes, job.size, width=job.line_width)
+    (inside / "lines.svg").write_text(drawing, encoding="utf-8")
 
 
 def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple[Relief, Part]:

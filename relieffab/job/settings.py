@@ -125,14 +125,19 @@ SETTINGS = (
     Setting(
         "line_kinds",
         _kinds,
-        "outline contour boundary crease suggestive",
-        "lines drawn; also ridge, valley, apparent-ridge, suggestive-highlight, "
+        "outline,contour,boundary,crease,suggestive",
+        "lines drawn, with commas; also ridge, valley, apparent-ridge, suggestive-highlight, "
         "principal-highlight",
     ),
     Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
     Setting("line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth"),
     Setting("line_detail", _not_negative, "1.8mm", "finer forms give no lines"),
-    Setting("line_length", _not_negative, "3mm", "shorter lines are left out"),
+    Setting(
+        "line_length",
+        _not_negative,
+        "3mm",
+        "shorter lines are left out; half of it for contours, a third for creases",
+    ),
     Setting("line_spread", _signed, "0mm", "dilates the line image, or erodes it if negative"),
     Setting("wall_angle", units.angle, "80deg", "of the figure's edge against the face"),
     Setting("machine", str, "3018-prover", "see `relieffab machines`"),

@@ -4,6 +4,8 @@ D. DeCarlo et al., "Suggestive contours for conveying shape", SIGGRAPH 2003;
 S. Rusinkiewicz et al., "Line drawings from 3D models", SIGGRAPH course 2008.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,22 +46,37 @@ def fading(x: Floats, least: float) -> Floats:
 
 
 def contours(surface: Surface) -> Chains:
-    """Where the surface turns away from the eye: n.v = 0, strength 1 where kr > 0."""
+    """Where the surface turns away from the eye: n.v = 0, strength 1 where kr > 0.
+
+    The inside of an open surface turns away where kr < 0; its normals are then
+    turned to the side that is seen.
+    """
     flattest = FLATTEST / surface.radius if surface.radius > 0 else 0.0
 
-    def strength(carried: Floats) -> Floats:
-        return np.where(carried[0] > flattest, 1.0, 0.0)
+    def side(carried: Floats) -> Floats:
+        inside = np.where(carried[0] < -flattest, -1.0, 0.0) if surface.open else 0.0
+        return np.where(carried[0] > flattest, 1.0, inside)
 
-    return zero_set(surface, surface.facing, radial_curvature(surface)[None], strength)
+    lines = zero_set(surface, surface.facing, radial_curvature(surface)[None], side)
+    turned = np.where(lines.strength < 0, -1.0, 1.0)[:, None]
+    return replace(lines, strength=np.abs(lines.strength), normals=turned * lines.normals)
 
 
 def suggestive(surface: Surface) -> Chains:
-    """Where it almost does: kr = 0, growing towards the eye."""
+    """Where it almost does: kr = 0, growing towards the eye.
+
+    Seen from inside, n.v and the change both change their signs.
+    """
+    return along_radial(surface, radial_derivative(surface), LEAST)
+
+
+def along_radial(surface: Surface, change: Floats, least: float) -> Chains:
+    """Lines of kr = 0, as strong as a change (v,), 1/mm^2, in units of n.v/fs^2."""
 
     def strength(carried: Floats) -> Floats:
         facing, change = carried
-        seen = facing > 0
-        return np.where(seen, fading(change / np.where(seen, facing, 1.0), LEAST), 0.0)
+        shows = surface.may_show(facing)
+        return np.where(shows, fading(change / np.where(shows, facing, 1.0), least), 0.0)
 
-    carried = np.stack([surface.facing, radial_derivative(surface) * surface.size**2])
+    carried = np.stack([surface.facing, change * surface.size**2])
     return zero_set(surface, radial_curvature(surface), carried, strength)

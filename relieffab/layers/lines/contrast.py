@@ -19,6 +19,8 @@ FARTHEST = 10.0
 """How far the sides of a valley are followed, mm."""
 FLAT_ON = np.pi / 2
 """What a side counts that is hidden before it has fallen, radians."""
+SLIP = 0.25
+"""How far off a line its valley's floor may lie, mm; two pixels at least."""
 SOON = 2.0
 """How near a line a side must be hidden to count so, mm."""
 JUMP = 6.0
@@ -26,7 +28,7 @@ JUMP = 6.0
 
 
 @kernel
-def _rises(points, across, angle, depth, reach, soon, jump, out):  # type: ignore[no-untyped-def]
+def _rises(points, across, angle, depth, slip, soon, reach, jump, out):  # type: ignore[no-untyped-def]
     """Follow the angle off the view on both sides of each point; write its lesser fall."""
     rows, cols = angle.shape
     for k in range(len(points)):
@@ -49,7 +51,7 @@ def _rises(points, across, angle, depth, reach, soon, jump, out):  # type: ignor
                         least = start - FLAT_ON
                     break
                 before, last = depth[i, j], angle[i, j]
-                if step <= 2:
+                if step <= slip:
                     start = max(start, angle[i, j])
                 if angle[i, j] > start:
                     break
@@ -70,7 +72,7 @@ def view_angles(surface: Surface, raster: Raster, grid: Grid) -> Floats:
     """
     seen, facing = surface.eye.project(surface.vertices), surface.facing[:, None]
     cosine = interpolate(raster, seen, surface.faces, facing, grid)[..., 0]
-    return np.where(raster.mask, np.arccos(np.clip(cosine, -1.0, 1.0)), -1.0)
+    return np.where(raster.mask, np.arccos(np.minimum(np.abs(cosine), 1.0)), -1.0)
 
 
 def contrast(chains: Chains, angles: Floats, raster: Raster, grid: Grid) -> Floats:
@@ -97,8 +99,8 @@ def contrast(chains: Chains, angles: Floats, raster: Raster, grid: Grid) -> Floa
     """
     points, across = in_pixels(chains, grid)
     out = np.empty(len(points))
-    reach, soon = int(FARTHEST / grid.pitch), int(SOON / grid.pitch)
-    _rises(points, across, angles, raster.depth, reach, soon, JUMP * grid.pitch, out)
+    slip, soon, reach = (int(length / grid.pitch) for length in (SLIP, SOON, FARTHEST))
+    _rises(points, across, angles, raster.depth, max(slip, 2), soon, reach, JUMP * grid.pitch, out)
     return out
 
 

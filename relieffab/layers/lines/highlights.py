@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.layers.lines.chains import Chains
-from relieffab.layers.lines.contours import fading, radial_curvature, radial_derivative
+from relieffab.layers.lines.contours import along_radial, fading, radial_derivative
 from relieffab.layers.lines.slopes import slope_of_directed
 from relieffab.layers.lines.surface import Surface
 from relieffab.layers.lines.zeros import zero_set
@@ -22,14 +22,7 @@ LEAST_PRINCIPAL = 0.04
 
 def suggestive_highlights(surface: Surface) -> Chains:
     """n.v is largest towards the eye: kr = 0, falling towards it (sec. 3.1)."""
-
-    def strength(carried: Floats) -> Floats:
-        facing, fall = carried
-        seen = facing > 0
-        return np.where(seen, fading(fall / np.where(seen, facing, 1.0), LEAST_SUGGESTIVE), 0.0)
-
-    carried = np.stack([surface.facing, -radial_derivative(surface) * surface.size**2])
-    return zero_set(surface, radial_curvature(surface), carried, strength)
+    return along_radial(surface, -radial_derivative(surface), LEAST_SUGGESTIVE)
 
 
 def principal_highlights(surface: Surface) -> Chains:
@@ -41,6 +34,8 @@ def principal_highlights(surface: Surface) -> Chains:
     fall = -slope_of_directed(surface, growth, e1) * surface.size**2
 
     def strength(carried: Floats) -> Floats:
-        return np.where(carried[0] > 0, fading(carried[1], LEAST_PRINCIPAL), 0.0)
+        facing, fall = carried
+        # Seen from inside, n.v changes its sign, and so does its fall.
+        return surface.may_show(facing) * fading(np.sign(facing) * fall, LEAST_PRINCIPAL)
 
     return zero_set(surface, u, np.stack([surface.facing, fall]), strength, along=e1)

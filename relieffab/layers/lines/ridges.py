@@ -87,7 +87,8 @@ def apparent_ridges(surface: Surface) -> Chains:
 
     def strength(carried: Floats) -> Floats:
         facing, square, peak = carried
-        return np.where((facing > 0) & (peak > 0.5), fading(square, LEAST_BENDING), 0.0)
+        shows = surface.may_show(facing) & (peak > 0.5)
+        return np.where(shows, fading(square, LEAST_BENDING), 0.0)
 
     carried = np.stack([surface.facing, (bending * surface.size) ** 2, falls.astype(np.float64)])
     return zero_set(surface, change, carried, strength, along=along)

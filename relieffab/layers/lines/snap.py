@@ -19,7 +19,7 @@ REACH = 0.5
 
 
 @kernel
-def _nearest_steps(points, across, reach, depth, jump, out):  # type: ignore[no-untyped-def]
+def _nearest_steps(points, across, reach, depth, jump, out, found):  # type: ignore[no-untyped-def]
     """Find how far along its normal each point's nearest fall of depth lies, in pixels.
 
     Half a pixel at a time, away from the point on both sides; what lies further along
@@ -27,7 +27,7 @@ def _nearest_steps(points, across, reach, depth, jump, out):  # type: ignore[no-
     """
     rows, cols = depth.shape
     for k in range(len(points)):
-        out[k] = 0.0
+        out[k], found[k] = 0.0, False
         best = reach[k] + 0.5
         for side in (-1.0, 1.0):
             before = np.inf
@@ -40,11 +40,11 @@ def _nearest_steps(points, across, reach, depth, jump, out):  # type: ignore[no-
                     here = depth[i, j]
                 if step > 0 and side * (before - here) > jump and abs(far) - 0.25 < best:
                     best = abs(far) - 0.25
-                    out[k] = far - side * 0.25
+                    out[k], found[k] = far - side * 0.25, True
                 before = here
 
 
-def snap(chains: Chains, depth: Floats, grid: Grid) -> Chains:
+def snap(chains: Chains, depth: Floats, grid: Grid) -> tuple[Chains, NDArray[np.bool_]]:
     """Move contours along their normals to the nearest step of the depth image.
 
     The zero set of n.v is that of a smooth surface; the mesh that is seen turns
@@ -57,14 +57,22 @@ def snap(chains: Chains, depth: Floats, grid: Grid) -> Chains:
     depth : (rows, cols) ndarray
         mm, larger is nearer, -inf where nothing is seen.
     grid : Grid
+
+    Returns
+    -------
+    moved : Chains
+    real : (n,) ndarray of bool
+        False where triangles are coarse and no step lies near: a contour of the
+        normals only, such as the apex of a cone casts.
     """
     reach = REACH * chains.slack / grid.pitch
     points, across = in_pixels(chains, grid)
     filled = np.where(np.isfinite(depth), depth, -1e30)
-    shift = np.empty(len(points))
-    _nearest_steps(points, across, reach, filled, STEEPEST * grid.pitch, shift)
-    shift = np.where(reach > 1.0, shift, 0.0) * grid.pitch
+    shift, found = np.empty(len(points)), np.empty(len(points), bool)
+    _nearest_steps(points, across, reach, filled, STEEPEST * grid.pitch, shift, found)
+    coarse = reach > 1.0
+    shift = np.where(coarse, shift, 0.0) * grid.pitch
     moved = chains.points.copy()
     moved[:, 0] += shift * across[:, 1]
     moved[:, 1] -= shift * across[:, 0]
-    return replace(chains, points=moved)
+    return replace(chains, points=moved), found | ~coarse

@@ -40,6 +40,8 @@ class Surface:
     eye : Eye
     view : (v, 3) ndarray
         Unit vectors from the surface to the eye.
+    open : bool
+        Whether the mesh has a rim, so that its inside may be seen.
     """
 
     vertices: Floats
@@ -49,6 +51,7 @@ class Surface:
     radius: float
     eye: Eye
     view: Floats
+    open: bool
 
     @property
     def size(self) -> float:
@@ -59,6 +62,10 @@ class Surface:
     def facing(self) -> Floats:
         """(v,) n.v, 1 where the surface faces the eye."""
         return np.einsum("vk,vk->v", self.bend.normals, self.view)
+
+    def may_show(self, facing: Floats) -> NDArray[np.bool_]:
+        """Tell from n.v whether a side that may be seen faces the eye: (n,)."""
+        return facing != 0 if self.open else facing > 0
 
     def in_principal_frame(self) -> tuple[Floats, Floats]:
         """Components u and w of the view along e1 and e2: (v,) each."""
@@ -93,6 +100,7 @@ def prepare(
         Straight above, infinitely far, if not given.
     """
     eye = eye or Eye()
+    rimmed = bool((edges.faces[:, 1] < 0).any())
     if sharp.any():
         faces, parent = split_at(sharp, edges, faces)
         vertices = vertices[parent]
@@ -102,7 +110,7 @@ def prepare(
     faired = smooth(vertices, faces, detail=detail, rim=rim)
     bend = osculate(faired, edges, curvature(faired, faces))
     radius = bounding_radius(faired[bend.areas > 0])
-    return Surface(vertices, faces, edges, bend, radius, eye, eye.towards(vertices))
+    return Surface(vertices, faces, edges, bend, radius, eye, eye.towards(vertices), rimmed)
 
 
 def bounding_radius(points: Floats) -> float:

@@ -65,8 +65,8 @@ class Patch:
         h = 1e-4
         ahead, behind = (self.radial(u + s * h * du, v + s * h * dv, view)[1] for s in (1, -1))
         change = (ahead - behind) / (2 * h) / sine2
-        strength = fading(change * size**2 / np.maximum(facing, 1e-9), LEAST)
-        return self.point(u, v), np.where(facing > 0, strength, 0.0), facing
+        aslant = np.where(np.abs(facing) > 1e-9, facing, 1e-9)
+        return self.point(u, v), fading(change * size**2 / aslant, LEAST), facing
 
     def contours(self, view, count=700):
         """Points and kr along n.v = 0."""

@@ -70,12 +70,16 @@ def test_lines_against_closed_form(patch, prepared, rotation, name, tilt, spin, 
     form = patch(SURFACES[name][0])
 
     truth, kr = form.contours(turn[2])
+    closed = SURFACES[name][2]
+    if not closed:  # the inside may be seen
+        kr = np.abs(kr)
     lines = resample(contours.contours(surface), 0.01)
     drawn, truth = lines.points[lines.strength > 0.5], truth @ turn.T
     assert off(drawn, truth[kr > -0.02]).max() < bound, "a false contour"
     assert off(truth[kr > 0.02], drawn).max() < bound, "a missing contour"
 
     truth, strength, facing = form.suggestive(turn[2], LARGE)
+    facing = facing if closed else np.abs(facing)
     lines = resample(contours.suggestive(surface), 0.01)
     drawn, truth = lines.points[lines.strength > LOW], truth @ turn.T
     # A line's end moves further than the line: leave room there, where its

@@ -22,19 +22,20 @@ def step(at=3.0, fall=5.0, far=0.0):
 
 @pytest.mark.parametrize("x", [2.3, 2.7, 3.3, 3.8])
 def test_a_contour_moves_to_the_step_from_either_side(x):
-    moved = snap(chains(x, [1.0, 0.0, 0.0]), step(), GRID)
+    moved, real = snap(chains(x, [1.0, 0.0, 0.0]), step(), GRID)
+    assert real.all()
     np.testing.assert_allclose(moved.points[:, 0], 3.0, atol=0.5 * GRID.pitch)
     np.testing.assert_array_equal(moved.points[:, 1:], chains(x, [1.0, 0, 0]).points[:, 1:])
 
 
 def test_the_background_is_a_step_too():
-    moved = snap(chains(2.6, [1.0, 0.0, 0.0]), step(far=-np.inf), GRID)
+    moved, _ = snap(chains(2.6, [1.0, 0.0, 0.0]), step(far=-np.inf), GRID)
     np.testing.assert_allclose(moved.points[:, 0], 3.0, atol=0.5 * GRID.pitch)
 
 
 def test_of_two_steps_the_nearer_counts():
     depth = np.minimum(step(2.5, fall=5.0, far=3.0), step(3.8, fall=5.0, far=0.0))
-    moved = snap(chains(2.8, [1.0, 0.0, 0.0]), depth, GRID)
+    moved, _ = snap(chains(2.8, [1.0, 0.0, 0.0]), depth, GRID)
     np.testing.assert_allclose(moved.points[:, 0], 2.5, atol=0.5 * GRID.pitch)
 
 
@@ -49,4 +50,6 @@ def test_of_two_steps_the_nearer_counts():
     ],
 )
 def test_where_it_has_no_business_nothing_moves(line, depth):
-    np.testing.assert_array_equal(snap(line, depth, GRID).points, line.points)
+    moved, real = snap(line, depth, GRID)
+    np.testing.assert_array_equal(moved.points, line.points)
+    assert real.all() == (line.slack[0] < 0.1)

@@ -187,7 +187,7 @@ def test_a_crease_beside_the_outline_is_left_out():
     # Turned so little that its side shows as a sliver of 0.56 mm.
     c, s = np.cos(0.04), np.sin(0.04)
     corners = 7 * CUBE @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]]) + [20, 15, 0]
-    close, apart = (draw((corners, BOX), spacing=spacing) for spacing in (1.0, 0.25))
+    close, apart = (draw((corners, BOX), spacing=spacing) for spacing in (2.0, 0.6))
     assert kinds(apart) == ["crease", "outline"]
     assert kinds(close) == ["outline"]
 
