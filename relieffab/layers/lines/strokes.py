@@ -16,7 +16,7 @@ from relieffab.layers.lines.outline import outlines
 from relieffab.layers.lines.snap import snap
 from relieffab.layers.lines.surface import Surface, prepare
 from relieffab.layers.lines.tidy import Line, Rules, tidy
-from relieffab.layers.lines.trace import simplify
+from relieffab.layers.lines.trace import length, simplify
 from relieffab.layers.lines.visibility import borders_background, visible
 from relieffab.layers.lines.zeros import edge_lines
 from relieffab.layers.model import Stroke
@@ -56,15 +56,11 @@ def draw_strokes(
 
 
 def _outer(mask: Flags, grid: Grid, min_length: float) -> list[Line]:
-    lines = [points for points in outlines(mask, grid) if _length(points) >= min_length]
+    lines = [points for points in outlines(mask, grid) if length(points) >= min_length]
     return [
         Line("outline", np.column_stack([points, np.ones(len(points))]), True)
-        for points in sorted(lines, key=_length, reverse=True)
+        for points in sorted(lines, key=length, reverse=True)
     ]
-
-
-def _length(points: Floats) -> float:
-    return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
 def _seen(kind: Kind, mesh: "_Mesh", raster: Raster, grid: Grid) -> tuple[Chains, Flags]:

@@ -12,7 +12,15 @@ from relieffab.layers.lines.chains import Chains
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.ends import lead_on
 from relieffab.layers.lines.kinds import Kind
-from relieffab.layers.lines.trace import close_gaps, drop_short, hysteresis, narrowed, runs, soften
+from relieffab.layers.lines.trace import (
+    close_gaps,
+    drop_short,
+    hysteresis,
+    length,
+    narrowed,
+    runs,
+    soften,
+)
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -80,14 +88,14 @@ class Rules:
         A mesh's own edges come in pieces that meet at corners and may lie close, so
         shorter and closer ones count; contours, which bound a form, somewhat.
         """
-        length, spacing = drawing.min_length, drawing.spacing
+        spacing = drawing.spacing
         share = 1 / 3 if kind.of_surface is None else 1 / 2 if kind.principal else 1.0
         return cls(
             step=step,
             low=HIGH if kind.principal else LOW,
-            min_length=share * length,
-            hidden=max(4 * step, 0.2 * length),
-            faint=0.5 * length,
+            min_length=share * drawing.min_length,
+            hidden=max(4 * step, 0.2 * drawing.min_length),
+            faint=0.5 * drawing.min_length,
             spacing=spacing / 3 if kind.of_surface is None else spacing,
             apart=share * spacing,
             softness=0.0 if kind.of_surface is None else SOFTNESS * drawing.detail,
@@ -121,6 +129,8 @@ def tidy(kind: str, chains: Chains, keep: Flags, drawn: Sequence[Line], rules: R
         here = slice(start, stop)
         table = np.column_stack([chains.points[here, :2], chains.strength[here]])
         lines += _cut(kind, table, keep[here], room[here], rules)
+    # Snapped contours may have drawn together.
+    lines = [line for line in lines if length(line.table) >= 0.9 * rules.min_length]
     lines.sort(key=lambda line: -len(line.table))
     return _meet(_thin_out(lines, rules), drawn, rules)
 
@@ -153,7 +163,7 @@ def _cut(kind: str, table: Floats, keep: Flags, room: Floats, rules: Rules) -> l
 
 def _apart(keep: Flags, room: Floats, spacing: float, rules: Rules) -> Flags:
     """Keep what is long enough on its own, and lead it a little way to what it nears."""
-    near, little = room < 1, spacing / rules.step
+    near, little = room < 1, int(spacing / rules.step)
     alone = drop_short(keep & close_gaps(~near, 2 * little), rules.min_length / rules.step)
     alone = hysteresis(alone, room, WELL_APART)
     return hysteresis(keep & ~narrowed(near, little), alone.astype(np.float64), 1.0)

@@ -15,6 +15,11 @@ Ints = NDArray[np.integer]
 Flags = NDArray[np.bool_]
 
 
+def length(points: Floats) -> float:
+    """Length of a line (n, 2 or more) as seen, mm."""
+    return float(np.hypot(*np.diff(points[:, :2], axis=0).T).sum())
+
+
 def runs(flags: Flags) -> tuple[Ints, Ints]:
     """First index of each stretch of True, and the index after its last."""
     padded = np.zeros(len(flags) + 2, bool)
@@ -61,20 +66,19 @@ def drop_short(flags: Flags, shortest: float) -> Flags:
     return out
 
 
-def narrowed(flags: Flags, by: float) -> Flags:
+def narrowed(flags: Flags, by: int) -> Flags:
     """Clear `by` samples at both ends of each stretch of True within, and short stretches whole.
 
     Parameters
     ----------
     flags : (n,) ndarray of bool
-    by : float
+    by : int
         Samples.
     """
     out = np.zeros_like(flags)
-    cut = int(by)
     for start, stop in zip(*runs(flags), strict=True):
-        if stop - start > 2 * cut:
-            out[start + cut * (start > 0) : stop - cut * (stop < len(flags))] = True
+        if stop - start > 2 * by:
+            out[start + by * (start > 0) : stop - by * (stop < len(flags))] = True
     return out
 
 
