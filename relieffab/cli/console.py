@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from relieffab.cli.interrupt import heeding
 from relieffab.job.settings import Chosen
 from relieffab.progress import Progress, silent
 
@@ -15,7 +16,7 @@ from relieffab.progress import Progress, silent
 def progress_bar() -> Iterator[Progress]:
     """Show one bar a stage on stderr; nothing where that is no terminal."""
     if not sys.stderr.isatty():
-        yield silent
+        yield heeding(silent)
         return
     from rich.console import Console
     from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
@@ -36,7 +37,7 @@ def progress_bar() -> Iterator[Progress]:
             count = f"{done:,.0f} of {total:,.0f} {unit}" if unit else ""
             bars.update(tasks[stage], completed=done, total=total, count=count)
 
-        yield show
+        yield heeding(show)
 
 
 def message(text: str) -> None:

@@ -3,15 +3,14 @@
 Exit status: 0 done, 1 findings, 2 bad input or usage, 3 machine, 130 interrupted.
 """
 
-import signal
 import sys
 from collections.abc import Sequence
-from types import FrameType
 
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
 from relieffab.cli import first, machine, stages
+from relieffab.cli.interrupt import listen
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -56,13 +55,7 @@ def run(arguments: Sequence[str]) -> int:
     return status if isinstance(status, int) else 0
 
 
-def _interrupt(_number: int, _frame: FrameType | None) -> None:
-    """Leave by the way that Ctrl-C leaves: machines are stopped, scratch folders go."""
-    raise KeyboardInterrupt
-
-
 def main() -> None:
     """Serve as the console script."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
+    listen()
     sys.exit(run(sys.argv[1:]))
