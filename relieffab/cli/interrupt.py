@@ -20,9 +20,10 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
 
 
 def listen() -> None:
-    """Take SIGINT, SIGTERM and SIGHUP as a wish to stop."""
+    """Take SIGINT, SIGTERM and SIGHUP as a wish to stop, unless told to ignore them (nohup)."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _interrupt)
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _interrupt)
 
 
 def heeding(show: Progress) -> Progress:
