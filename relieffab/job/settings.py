@@ -58,7 +58,7 @@ def _signed(text: Any) -> float:
 
 
 def _kinds(text: Any) -> tuple[str, ...]:
-    from relieffab.layers.lines.kinds import chosen
+    from relieffab.layers.lines.names import chosen
 
     return chosen(str(text).replace(",", " ").split())
 

@@ -20,7 +20,7 @@ class Stroke:
     points : (n, 2) ndarray
         X and Y on the panel, mm.
     kind : str
-        A name of `layers.lines.kinds.KINDS`.
+        One of `layers.lines.names.NAMES`.
     strength : (n,) ndarray
         0 (barely there) to 1.
     closed : bool

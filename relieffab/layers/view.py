@@ -146,13 +146,17 @@ class Placed:
     solid: Floats
     eye: Eye
 
+    def __post_init__(self) -> None:
+        for array in (self.vertices, self.faces, self.matrix, self.solid):
+            array.flags.writeable = False
+
     @classmethod
     def seen_from(
         cls, eye: Eye, solid: Floats, faces: NDArray[np.integer], matrix: Floats
     ) -> "Placed":
         """Look from an eye at a true shape that `matrix` took from model units to mm."""
         seen = eye.project(solid)
-        return cls(seen, np.asarray(faces, np.int64), eye.matrix @ matrix, solid, eye)
+        return cls(seen, np.array(faces, np.int64), eye.matrix @ matrix, np.array(solid), eye)
 
 
 def place(mesh: Mesh, view: View, size: tuple[float, float], *, margin: float) -> Placed:

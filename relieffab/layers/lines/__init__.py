@@ -1,7 +1,11 @@
 """The line drawing: from a mesh to strokes, as vectors and as ink.
 
-A mesh is faired and its bending measured (`smooth`, `curvature`, `surface`); each
-kind of line is the zero set of a field on it (`contours`, `ridges`, `highlights`,
-listed in `kinds`); what is seen of it becomes strokes (`chains`, `visibility`,
-`trace`, `ends`, `strokes`), which are drawn (`image`) and written (`svg`).
+- What is drawn: `names` and `drawing` say which lines and how.
+- The surface: `edges`, `creases`, `smooth`, `curvature`, `jets`, `slopes`, and `surface`,
+  which puts them together.
+- The lines on it: `contours`, `ridges`, `highlights`, listed in `kinds`; each is the zero
+  set of a field (`zeros`), joined into `chains`.
+- What is seen of them: `outline`, `visibility`, `snap`, `contrast`.
+- Strokes: `trace` and `ends` are the tools, `tidy` the rules, `strokes` the way through.
+- Out: `image` is ink, `svg` the vectors.
 """

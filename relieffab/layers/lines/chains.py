@@ -116,7 +116,7 @@ def resample(chains: Chains, step: float) -> Chains:
     )
     at = np.repeat(start, pieces + 1) + share * np.repeat(stop - start, pieces + 1)
     fine = np.stack([np.interp(at, arc, column) for column in table.T], axis=1)
-    fine[begin[1:] - 1] = table[
-        chains.begin[1:] - 1
-    ]  # to the bit, so that what closes stays closed
+    # To the bit, so that what closes stays closed.
+    fine[begin[:-1]] = table[chains.begin[:-1]]
+    fine[begin[1:] - 1] = table[chains.begin[1:] - 1]
     return Chains(fine[:, :3], fine[:, 3], fine[:, 4:7], fine[:, 7], begin)

@@ -29,7 +29,10 @@ def radial_curvature(surface: Surface) -> Floats:
 
 
 def radial_derivative(surface: Surface) -> Floats:
-    """Change of the radial curvature towards the eye, times n.v: (v,), 1/mm^2."""
+    """Change of the radial curvature towards the eye, times its sine: (v,), 1/mm^2.
+
+    The sine is of the angle between normal and view.
+    """
     u, w = surface.in_principal_frame()
     k1, k2 = surface.bend.principal
     c0, c1, c2, c3 = surface.bend.derivative

@@ -18,7 +18,10 @@ HARD = 60.0
 
 
 def turns(vertices: Floats, faces: Ints, edges: Edges) -> Floats:
-    """Angle between the faces on both sides of each edge: (e,), degrees; 0 where there is none."""
+    """Angle between the faces on both sides of each edge: (e,), degrees.
+
+    0 where there is one face, 180 where there are more than two.
+    """
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
@@ -27,7 +30,8 @@ def turns(vertices: Floats, faces: Ints, edges: Edges) -> Floats:
     cosine = np.einsum("ek,ek->e", normal[sides[:, 0]], normal[sides[:, 1]])
     cosine = np.where(edges.same_way, -cosine, cosine)
     solid = (sides[:, 1] >= 0) & (length[sides] > 0).all(axis=1)
-    return np.where(solid, np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))), 0.0)
+    angle = np.where(solid, np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))), 0.0)
+    return np.where(edges.crowded, 180.0, angle)
 
 
 def find_creases(vertices: Floats, faces: Ints, edges: Edges, shortest: float) -> NDArray[np.bool_]:

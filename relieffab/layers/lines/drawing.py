@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relieffab.errors import InputError
-from relieffab.layers.lines.kinds import USUAL, chosen
+from relieffab.layers.lines.names import USUAL, chosen
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class Drawing:
     Parameters
     ----------
     kinds : tuple of str
-        Names of `kinds.KINDS`.
+        Some of `names.NAMES`.
     detail : float
         Forms of this wavelength lose half their height before lines are sought,
         finer ones nearly all, mm; 0 keeps all.
@@ -31,7 +31,7 @@ class Drawing:
     width : float
         Of a stroke, mm.
     spread : float
-        How far ink is dilated (above 0) or eroded (below 0), mm.
+        How far ink is dilated (above 0) or eroded (below 0), mm; under a pixel, nothing.
     """
 
     kinds: tuple[str, ...] = USUAL
@@ -53,8 +53,12 @@ class Drawing:
                     expected="0 mm or more",
                     found=f"{value} mm",
                 )
-        if not np.isfinite(self.spread):
-            raise InputError("spread of the lines is not a length", found=f"{self.spread} mm")
+        if not abs(self.spread) <= 3 * self.width:
+            raise InputError(
+                "spread of the lines is out of range",
+                expected=f"three widths at most either way, {3 * self.width:g} mm",
+                found=f"{self.spread:g} mm",
+            )
         if not 0 <= self.secondary <= 1:
             raise InputError(
                 "secondary of the lines is not a share",

@@ -24,12 +24,15 @@ class Edges:
         Two of the faces at the edge; the second is -1 on a boundary.
     same_way : (e,) ndarray of bool
         Whether both faces run along it in one direction: oddly wound.
+    crowded : (e,) ndarray of bool
+        Whether it has more faces than two.
     """
 
     ends: Ints
     of_face: Ints
     faces: Ints
     same_way: NDArray[np.bool_]
+    crowded: NDArray[np.bool_]
 
 
 def find_edges(faces: Ints, count: int) -> Edges:
@@ -44,12 +47,13 @@ def find_edges(faces: Ints, count: int) -> Edges:
     first = np.flatnonzero(new)
     of_face = np.empty(len(key), np.int64)
     of_face[order] = np.cumsum(new) - 1
-    many = np.diff(np.append(first, len(key))) > 1
+    uses = np.diff(np.append(first, len(key)))
+    many = uses > 1
     second = order[np.minimum(first + 1, len(key) - 1)] if len(key) else first
     pair = np.stack([order[first] // 3, np.where(many, second // 3, -1)], axis=1)
     ends = np.stack([ranked[first] // count, ranked[first] % count], axis=1)
     same_way = many & (forward[order[first]] == forward[second])
-    return Edges(ends, of_face.reshape(-1, 3), pair, same_way)
+    return Edges(ends, of_face.reshape(-1, 3), pair, same_way, uses > 2)
 
 
 def split_at(creased: NDArray[np.bool_], edges: Edges, faces: Ints) -> tuple[Ints, Ints]:

@@ -52,3 +52,14 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
         return np.concatenate([met, line])
 
     return [_onward(_onward(line, k)[::-1], k)[::-1] for k, line in enumerate(lines)]
+
+
+def meets(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> list[bool]:
+    """Tell which open lines have an end within `reach` mm of another line."""
+    if not lines:
+        return []
+    every = [*lines, *drawn]
+    owner = np.repeat(np.arange(len(every)), [len(line) for line in every])
+    tree = cKDTree(np.concatenate(every)[:, :2])
+    ends = [tree.query_ball_point(line[[0, -1], :2], reach) for line in lines]
+    return [any((owner[near] != k).any() for near in both) for k, both in enumerate(ends)]

@@ -25,6 +25,8 @@ FEWEST = 14
 """Vertices, its own too, that a fit needs: two rings as a rule, up to four at a rim."""
 MOST = 64
 """Vertices that a fit looks at."""
+SOUND = 1e-4
+"""Least share of a term that the others do not explain: narrow strips tell no cubic."""
 ROUGHEST = 0.03
 """Largest RMS of what a fit may miss, as a share of its radius: coarser forms are no cubics."""
 ASIDE = 0.3
@@ -84,7 +86,7 @@ def _rows(points, near, count, frame, rows, heights):  # type: ignore[no-untyped
 def _solve(a, b):  # type: ignore[no-untyped-def]
     """Solve a x = b in place by Cholesky, a's lower half given; tell whether it is sound."""
     for i in range(TERMS):
-        least = 1e-9 * a[i, i]
+        least = SOUND * a[i, i]
         for j in range(i + 1):
             total = a[i, j]
             for k in range(j):

@@ -1,11 +1,11 @@
 """The kinds of line that can be drawn, the stronger ones first."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from relieffab.errors import InputError, suggest
 from relieffab.layers.lines import contours, highlights, ridges
 from relieffab.layers.lines.chains import Chains
+from relieffab.layers.lines.names import NAMES, PRINCIPAL
 from relieffab.layers.lines.surface import Surface
 
 
@@ -28,37 +28,15 @@ class Kind:
     of_surface: Callable[[Surface], Chains] | None = None
 
 
-KINDS = (
-    Kind("outline", principal=True),
-    Kind("contour", principal=True, of_surface=contours.contours),
-    Kind("boundary", principal=True),
-    Kind("crease", principal=True),
-    Kind("suggestive", principal=False, of_surface=contours.suggestive),
-    Kind("ridge", principal=False, of_surface=ridges.ridges),
-    Kind("valley", principal=False, of_surface=ridges.valleys),
-    Kind("apparent-ridge", principal=False, of_surface=ridges.apparent_ridges),
-    Kind("suggestive-highlight", principal=False, of_surface=highlights.suggestive_highlights),
-    Kind("principal-highlight", principal=False, of_surface=highlights.principal_highlights),
-)
-NAMES = tuple(kind.name for kind in KINDS)
-USUAL = NAMES[:5]
-PRINCIPAL = frozenset(kind.name for kind in KINDS if kind.principal)
+_FINDERS = {
+    "contour": contours.contours,
+    "suggestive": contours.suggestive,
+    "ridge": ridges.ridges,
+    "valley": ridges.valleys,
+    "apparent-ridge": ridges.apparent_ridges,
+    "suggestive-highlight": highlights.suggestive_highlights,
+    "principal-highlight": highlights.principal_highlights,
+}
 
-
-def chosen(names: Iterable[str]) -> tuple[str, ...]:
-    """Return the kinds named, each once, the stronger ones first.
-
-    Raises
-    ------
-    InputError
-        If none is named, or one that is not a kind of line.
-    """
-    names = tuple(names)
-    for name in names:
-        if name not in NAMES:
-            raise InputError(
-                "there is no such kind of line", found=repr(name), hint=suggest(name, NAMES)
-            )
-    if not names:
-        raise InputError("a drawing needs a kind of line", expected="some of " + " ".join(NAMES))
-    return tuple(name for name in NAMES if name in names)
+KINDS = tuple(Kind(name, name in PRINCIPAL, _FINDERS.get(name)) for name in NAMES)
+"""All kinds, the stronger ones first."""

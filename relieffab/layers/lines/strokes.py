@@ -11,7 +11,8 @@ from relieffab.layers.lines.contrast import contrast_strength
 from relieffab.layers.lines.creases import find_creases
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.edges import Edges, find_edges
-from relieffab.layers.lines.kinds import KINDS, PRINCIPAL, Kind
+from relieffab.layers.lines.kinds import KINDS, Kind
+from relieffab.layers.lines.names import PRINCIPAL
 from relieffab.layers.lines.outline import outlines
 from relieffab.layers.lines.snap import snap
 from relieffab.layers.lines.surface import Surface, prepare
@@ -21,6 +22,7 @@ from relieffab.layers.lines.visibility import borders_background, visible
 from relieffab.layers.lines.zeros import edge_lines
 from relieffab.layers.model import Stroke
 from relieffab.layers.raster import Raster
+from relieffab.layers.shading import face_normals
 from relieffab.layers.view import Placed
 
 Floats = NDArray[np.float64]
@@ -45,7 +47,7 @@ def draw_strokes(
     tuple of Stroke
         Kind by kind, principal ones first, of each the longest first.
     """
-    drawing = drawing or Drawing()
+    drawing = _visible_lengths(drawing or Drawing(), grid.pitch)
     mesh = _Mesh.of(placed, drawing)
     drawn = _outer(raster.mask, grid, drawing.min_length)
     for kind in KINDS:
@@ -53,6 +55,19 @@ def draw_strokes(
             chains, keep = _seen(kind, mesh, raster, grid)
             drawn += tidy(kind.name, chains, keep, drawn, Rules.of(kind, drawing, grid.pitch))
     return tuple(_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
+
+
+def _visible_lengths(drawing: Drawing, pitch: float) -> Drawing:
+    """Raise lengths that no picture of this pitch could show, but for those set to 0."""
+    least = {"detail": 4 * pitch, "min_length": 12 * pitch, "spacing": 3 * pitch}
+    return replace(
+        drawing,
+        **{
+            name: max(getattr(drawing, name), floor)
+            for name, floor in least.items()
+            if getattr(drawing, name) > 0
+        },
+    )
 
 
 def _outer(mask: Flags, grid: Grid, min_length: float) -> list[Line]:
@@ -98,7 +113,11 @@ class _Mesh:
         if kind.of_surface is not None:
             return kind.of_surface(self.surface)
         here = self.creases if kind.name == "crease" else self.edges.faces[:, 1] < 0
-        return edge_lines(self.placed.vertices, self.edges.ends[here])
+        seen = face_normals(self.placed.vertices, self.placed.faces)
+        length = np.maximum(np.linalg.norm(seen, axis=1), 1e-300)
+        sine = np.hypot(seen[:, 0], seen[:, 1]) / length
+        gentler = sine[self.edges.faces[here]].min(axis=1)
+        return edge_lines(self.placed.vertices, self.edges.ends[here], gentler)
 
 
 def _stroke(line: Line, drawing: Drawing) -> Stroke:

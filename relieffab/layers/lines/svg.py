@@ -6,7 +6,7 @@ import numpy as np
 from lxml import etree
 
 from relieffab.errors import InputError
-from relieffab.layers.lines.kinds import NAMES, PRINCIPAL
+from relieffab.layers.lines.names import NAMES, PRINCIPAL
 from relieffab.layers.model import Stroke
 
 _INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"

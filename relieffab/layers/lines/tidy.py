@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from relieffab.layers.lines.chains import Chains
 from relieffab.layers.lines.drawing import Drawing
-from relieffab.layers.lines.ends import lead_on
+from relieffab.layers.lines.ends import lead_on, meets
 from relieffab.layers.lines.kinds import Kind
 from relieffab.layers.lines.trace import (
     close_gaps,
@@ -19,6 +19,7 @@ from relieffab.layers.lines.trace import (
     length,
     narrowed,
     runs,
+    seam,
     soften,
 )
 
@@ -29,8 +30,10 @@ LOW, HIGH = 0.25, 0.5
 """Strength at which a secondary line may go on, and what any line must reach somewhere."""
 WELL_APART = 1.5
 """What a line must be off the stronger ones somewhere, in units of the spacing."""
-SOFTNESS = 0.25
-"""Deviation of the Gaussian along lines that cross triangles, as a share of the detail."""
+SOFTNESS = 0.75
+"""Deviation of the Gaussian along lines that cross triangles, in units of the spacing."""
+STAIRS = 2.0
+"""Its least, samples: what takes the stairs of pixels off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +63,8 @@ class Rules:
         Between samples, mm.
     low : float
         Strength at which a line may go on.
-    min_length : float
-        Shorter lines are left out, mm.
+    min_length, lone_length : float
+        Shorter lines are left out, mm, and shorter ones that meet no other.
     hidden, faint : float
         Gaps that are closed where a line is hidden, or too weak, mm.
     spacing : float
@@ -75,6 +78,7 @@ class Rules:
     step: float
     low: float
     min_length: float
+    lone_length: float
     hidden: float
     faint: float
     spacing: float
@@ -94,11 +98,12 @@ class Rules:
             step=step,
             low=HIGH if kind.principal else LOW,
             min_length=share * drawing.min_length,
+            lone_length=drawing.min_length,
             hidden=max(4 * step, 0.2 * drawing.min_length),
             faint=0.5 * drawing.min_length,
             spacing=spacing / 3 if kind.of_surface is None else spacing,
             apart=share * spacing,
-            softness=0.0 if kind.of_surface is None else SOFTNESS * drawing.detail,
+            softness=0.0 if kind.of_surface is None else max(SOFTNESS * spacing, STAIRS * step),
         )
 
 
@@ -147,15 +152,20 @@ def _cut(kind: str, table: Floats, keep: Flags, room: Floats, rules: Rules) -> l
     """Cut the lines worth drawing out of one."""
     closed = len(table) > 2 and bool((table[0, :2] == table[-1, :2]).all())
     if closed:
-        first = int(np.argmin(keep))
-        table = np.roll(table[:-1], -first, axis=0)
-        keep, room = np.roll(keep[:-1], -first), np.roll(room[:-1], -first)
+        table, keep, room = table[:-1], keep[:-1], room[:-1]
     table = soften(table, rules.softness / rules.step, closed=closed).copy()
+    if closed:
+        first = seam(keep & (table[:, 2] > rules.low) & (room >= 1))
+        table, keep, room = np.roll(table, -first, 0), np.roll(keep, -first), np.roll(room, -first)
     hidden = rules.hidden / rules.step
-    strong = close_gaps(table[:, 2] > rules.low, rules.faint / rules.step)
-    keep = hysteresis(close_gaps(keep, hidden) & strong, table[:, 2], HIGH)
-    keep = _apart(close_gaps(keep, hidden), room, rules.spacing, rules)
+    strong = close_gaps(table[:, 2] > rules.low, rules.faint / rules.step, closed=closed)
+    keep = hysteresis(close_gaps(keep, hidden, closed=closed) & strong, table[:, 2], HIGH)
+    keep = _apart(close_gaps(keep, hidden, closed=closed), room, rules.spacing, rules)
     table[:, 2] = np.maximum(table[:, 2], rules.low)
+    return _pieces(kind, table, keep, closed=closed)
+
+
+def _pieces(kind: str, table: Floats, keep: Flags, *, closed: bool) -> list[Line]:
     if closed and keep.all():
         return [Line(kind, table, True)]
     return [Line(kind, table[a:b], False) for a, b in zip(*runs(keep), strict=True)]
@@ -182,19 +192,28 @@ def _thin_out(lines: list[Line], rules: Rules) -> list[Line]:
     np.minimum.at(room, np.where(owner[a] > owner[b], a, b), distance)
     out = []
     for k, line in enumerate(lines):
-        every = np.ones(len(line.table), bool)
-        clear = _apart(every, room[owner == k], rules.apart, rules)
-        if clear.all():
-            out.append(line)
-            continue
-        out += [Line(line.kind, line.table[i:j], False) for i, j in zip(*runs(clear), strict=True)]
+        table, clear = line.table, room[owner == k]
+        if line.closed:
+            first = seam(clear >= 1)
+            table, clear = np.roll(table, -first, axis=0), np.roll(clear, -first)
+        keep = _apart(np.ones(len(table), bool), clear, rules.apart, rules)
+        out += _pieces(line.kind, table, keep, closed=line.closed)
     return out
 
 
 def _meet(lines: list[Line], drawn: Sequence[Line], rules: Rules) -> list[Line]:
-    """Lead open lines on to what they all but reach."""
-    closed = [line for line in lines if line.closed]
+    """Lead open lines on to what they all but reach; leave out short ones that reach nothing."""
     tables = [line.table for line in lines if not line.closed]
-    others = [line.table for line in [*drawn, *closed]]
-    met = iter(lead_on(tables, others, 2 * rules.spacing))
-    return [line if line.closed else replace(line, table=next(met)) for line in lines]
+    others = [line.table for line in [*drawn, *(line for line in lines if line.closed)]]
+    reach = 2 * rules.spacing
+    met = iter(lead_on(tables, others, reach))
+    meeting = iter(meets(tables, others, reach))
+    out = []
+    for line in lines:
+        if line.closed:
+            out.append(line)
+            continue
+        table, reaches = next(met), next(meeting)
+        if reaches or length(line.table) >= 0.9 * rules.lone_length:
+            out.append(replace(line, table=table))
+    return out

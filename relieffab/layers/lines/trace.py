@@ -28,25 +28,36 @@ def runs(flags: Flags) -> tuple[Ints, Ints]:
     return change[::2], change[1::2]
 
 
-def close_gaps(flags: Flags, longest: float, *, ends: bool = False) -> Flags:
-    """Set stretches of False that are no longer than `longest`.
+def close_gaps(flags: Flags, longest: float, *, closed: bool = False) -> Flags:
+    """Set stretches of False within that are no longer than `longest`.
 
     Parameters
     ----------
     flags : (n,) ndarray of bool
     longest : float
         Samples.
-    ends : bool
-        Also where the gap lies at either end; never where nothing is set.
+    closed : bool
+        Whether the last sample is followed by the first.
     """
+    if closed:
+        return close_gaps(np.tile(flags, 3), longest)[len(flags) : 2 * len(flags)]
     out = flags.copy()
-    if not flags.any():
-        return out
     for start, stop in zip(*runs(~flags), strict=True):
-        inside = start > 0 and stop < len(flags)
-        if stop - start <= longest and (inside or ends):
+        if stop - start <= longest and start > 0 and stop < len(flags):
             out[start:stop] = True
     return out
+
+
+def seam(flags: Flags) -> int:
+    """Return the middle of the longest stretch of False of a closed line; 0 if there is none.
+
+    Opened there, a line is cut the same wherever its numbering starts.
+    """
+    start, stop = runs(~np.tile(flags, 2))
+    if len(start) == 0:
+        return 0
+    longest = int((stop - start).argmax())
+    return int(start[longest] + stop[longest]) // 2 % len(flags)
 
 
 def hysteresis(flags: Flags, strength: Floats, high: float) -> Flags:

@@ -77,12 +77,12 @@ def _chains(
         points=surface.eye.project(points),
         strength=strength(here[:, 7:].T),
         normals=surface.eye.bend_normals(points, normals),
-        slack=here[:, 6],
+        slack=here[:, 6] / (1 - surface.eye.nearness * points[:, 2]),
         begin=begin,
     )
 
 
-def edge_lines(points: Floats, ends: Ints) -> Chains:
+def edge_lines(points: Floats, ends: Ints, steepness: Floats) -> Chains:
     """Join edges given by their vertices into lines of full strength.
 
     Parameters
@@ -90,8 +90,13 @@ def edge_lines(points: Floats, ends: Ints) -> Chains:
     points : (v, 3) ndarray
         As seen, mm.
     ends : (e, 2) ndarray of int
+    steepness : (e,) ndarray
+        Sine of the angle between viewer and normal on the gentler side of each edge:
+        how fast the depth rises beside it.
     """
     order, begin = join(ends)
-    count = len(order)
-    flat = np.broadcast_to([0.0, 0.0, 1.0], (count, 3))
-    return Chains(points[order], np.ones(count), flat, np.zeros(count), begin)
+    most = np.zeros(len(points))
+    np.maximum.at(most, ends.ravel(), np.repeat(steepness, 2))
+    sine = most[order]
+    aslant = np.stack([sine, np.zeros_like(sine), np.sqrt(1 - sine**2)], axis=1)
+    return Chains(points[order], np.ones(len(order)), aslant, np.zeros(len(order)), begin)

@@ -20,8 +20,9 @@ def test_secondary_is_a_share(value):
 
 def test_spread_may_be_negative_but_not_endless():
     assert Drawing(spread=-0.2).spread == -0.2
-    with pytest.raises(InputError, match="spread"):
-        Drawing(spread=np.inf)
+    for spread in (np.inf, np.nan, -5.0, 2.0):
+        with pytest.raises(InputError, match="spread"):
+            Drawing(spread=spread)
 
 
 def test_kinds_are_put_in_order():

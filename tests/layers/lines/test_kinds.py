@@ -1,20 +1,18 @@
-import pytest
-
-from relieffab.errors import InputError
-from relieffab.layers.lines.kinds import NAMES, PRINCIPAL, USUAL, chosen
+from relieffab.layers.lines import contours, highlights, ridges
+from relieffab.layers.lines.kinds import KINDS
 
 
-def test_chosen_kinds_come_once_and_in_order_of_strength():
-    assert chosen(["ridge", "outline", "ridge"]) == ("outline", "ridge")
-    assert chosen(NAMES[::-1]) == NAMES
-
-
-def test_usual_kinds_are_those_of_the_paper_and_of_parts():
-    assert USUAL == ("outline", "contour", "boundary", "crease", "suggestive")
-    assert set(USUAL) - PRINCIPAL == {"suggestive"}
-
-
-@pytest.mark.parametrize("names", [(), ("contours",), ("outline", "")])
-def test_unknown_kinds_are_refused(names):
-    with pytest.raises(InputError, match="kind of line"):
-        chosen(names)
+def test_every_kind_has_its_own_finder():
+    table = {kind.name: (kind.principal, kind.of_surface) for kind in KINDS}
+    assert table == {
+        "outline": (True, None),
+        "contour": (True, contours.contours),
+        "boundary": (True, None),
+        "crease": (True, None),
+        "suggestive": (False, contours.suggestive),
+        "ridge": (False, ridges.ridges),
+        "valley": (False, ridges.valleys),
+        "apparent-ridge": (False, ridges.apparent_ridges),
+        "suggestive-highlight": (False, highlights.suggestive_highlights),
+        "principal-highlight": (False, highlights.principal_highlights),
+    }

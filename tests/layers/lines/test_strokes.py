@@ -269,3 +269,48 @@ def test_bad_triangles_do_no_harm():
 
 def test_a_model_out_of_sight_has_no_strokes():
     assert draw(ball(3.0, (200, 15, 0), rows=8, cols=8)) == ()
+
+
+def test_secondary_lines_have_their_share_of_strength():
+    mesh = ball(1.0, (20, 15, 0), rows=240, cols=120, shape=twice_grooved)
+    strokes = draw(mesh, detail=0.0, spacing=1.0, secondary=0.4)
+    assert 0.2 < max(s.strength.max() for s in of_kind(strokes, "suggestive")) <= 0.4
+    assert of_kind(strokes, "outline")[0].strength.max() == 1.0
+
+
+def test_an_outline_that_is_not_wanted_is_not_drawn():
+    near, far = ball(4.0, (18, 15, 20)), ball(11.0, (20, 15, 0), rows=120, cols=180)
+    assert kinds(draw(together(near, far), kinds=("contour",))) == ["contour"]
+
+
+@pytest.mark.parametrize("slope", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize("turned", [0.0, 0.01, 0.03])
+def test_the_floor_of_a_groove_is_one_crease(slope, turned):
+    x, y = np.array([-3.0, 0, 3, -3, 0, 3]), np.array([-8.0, -8, -8, 8, 8, 8])
+    c, s = np.cos(turned), np.sin(turned)
+    vertices = np.stack([20 + c * x - s * y, 15 + s * x + c * y, slope * np.abs(x)], axis=1)
+    faces = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
+    (floor,) = of_kind(draw((vertices, faces), min_length=1.0), "crease")
+    assert length(floor) == pytest.approx(16.0, abs=0.5)
+
+
+def test_a_cone_has_no_contour_of_its_apex():
+    angle = 2 * np.pi * np.arange(64) / 64
+    rim = np.stack([8 * np.cos(angle), 8 * np.sin(angle), np.zeros(64)], axis=1)
+    vertices = np.concatenate([rim, [[0, 0, 16.0], [0, 0, 0.0]]])
+    after = (np.arange(64) + 1) % 64
+    sides = np.stack([np.arange(64), after, np.full(64, 64)], axis=1)
+    base = np.stack([after, np.arange(64), np.full(64, 65)], axis=1)
+    c, s = np.cos(np.radians(65)), np.sin(np.radians(65))
+    tilt = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+    mesh = vertices @ tilt.T + [20, 10, 0], np.concatenate([sides, base])
+    assert set(kinds(draw(mesh))) <= {"outline", "crease"}
+
+
+def test_the_inside_of_an_open_surface_is_drawn_like_its_outside():
+    points, faces = torus_mesh()
+    half = points[faces].mean(axis=1)[:, 0] > 14.0  # a rim, so that both sides count
+    one, other = draw((points, faces[half])), draw((points, faces[half][:, ::-1]))
+    assert kinds(one) == kinds(other)
+    a, b = (np.concatenate([dense(s) for s in strokes]) for strokes in (one, other))
+    assert max(cKDTree(a).query(b)[0].max(), cKDTree(b).query(a)[0].max()) < GRID.pitch

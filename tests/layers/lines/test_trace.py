@@ -7,6 +7,7 @@ from relieffab.layers.lines.trace import (
     hysteresis,
     narrowed,
     runs,
+    seam,
     simplify,
     soften,
 )
@@ -27,17 +28,25 @@ def test_runs():
 
 
 @pytest.mark.parametrize(
-    ("before", "ends", "after"),
+    ("before", "closed", "after"),
     [
         ("#..#...#", False, "####...#"),
         ("..#..#..", False, "..####.."),
-        ("..#..#..", True, "########"),
+        (".#...#..", False, ".#...#.."),
+        (".#...##.", True, "##...###"),
         ("....", True, "...."),
-        ("...#", True, "...#"),
+        ("..####..", True, "..####.."),
     ],
 )
-def test_gaps_up_to_the_longest_are_closed(before, ends, after):
-    assert text(close_gaps(flags(before), 2, ends=ends)) == after
+def test_gaps_up_to_the_longest_are_closed(before, closed, after):
+    assert text(close_gaps(flags(before), 2, closed=closed)) == after
+
+
+@pytest.mark.parametrize("turn", range(10))
+def test_a_loop_is_opened_in_its_longest_gap(turn):
+    loop = np.roll(flags("##.###....".replace(" ", "")), turn)
+    assert text(np.roll(loop, -seam(loop))) == "..##.###.."
+    assert seam(flags("####")) == 0
 
 
 def test_short_runs_are_dropped():

@@ -54,6 +54,11 @@ def test_lines_are_projected_as_points_of_the_surface_are(prepared, rotation):
 
 def test_edge_lines_join():
     corners = np.arange(12.0).reshape(4, 3)
-    square = edge_lines(corners, np.array([[0, 1], [3, 1], [3, 2], [2, 0]]))
+    square = edge_lines(
+        corners, np.array([[0, 1], [3, 1], [3, 2], [2, 0]]), np.array([0.1, 0.6, 0.2, 0.3])
+    )
     assert square.begin.tolist() == [0, 5]
     assert (square.strength == 1).all()
+    # A corner is as steep as the steeper of its edges.
+    by_corner = dict(zip(map(tuple, square.points), square.normals[:, 0], strict=True))
+    np.testing.assert_allclose([by_corner[tuple(c)] for c in corners], [0.3, 0.6, 0.3, 0.6])
