@@ -83,6 +83,8 @@ def read_mesh(path: str | Path) -> Mesh:
     """
     path = Path(path)
     where = str(path)
+    if path.is_dir():
+        raise InputError("the model is a folder", expected="a model file", where=where)
     if not path.is_file():
         raise InputError("there is no such model file", where=where, hint=_nearest(path))
     suffix = path.suffix.lower()

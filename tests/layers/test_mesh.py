@@ -116,3 +116,8 @@ def test_a_missing_file_is_told_with_its_neighbour(tmp_path):
     (tmp_path / "horse.ply").write_bytes(b"x")
     with pytest.raises(InputError, match=r"did you mean horse\.ply"):
         read_mesh(tmp_path / "hose.ply")
+
+
+def test_a_folder_is_no_model(tmp_path):
+    with pytest.raises(InputError, match="folder"):
+        read_mesh(tmp_path)

@@ -35,8 +35,8 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
     owner = np.repeat(np.arange(len(every)), [len(line) for line in every])
     tree = cKDTree(table[:, :2])
 
-    def _onward(line: Floats, own: int) -> Floats:
-        """Add the point before the first one that lies straight ahead and near."""
+    def target(line: Floats, own: int) -> int:
+        """Row of the table that lies straight ahead of the first point and near; -1 if none."""
         heading = line[0, :2] - line[min(AHEAD, len(line) - 1), :2]
         near = np.array(tree.query_ball_point(line[0, :2], reach), dtype=np.int64)
         near = near[owner[near] != own]
@@ -45,13 +45,25 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
         aside = np.abs(jump[:, 0] * heading[1] - jump[:, 1] * heading[0])
         ahead = onward > aside
         if not ahead.any():
-            return line
-        best = near[np.where(ahead, aside + 0.5 * onward, np.inf).argmin()]
-        met = line[:1].copy()
-        met[0, :2] = table[best, :2]
-        return np.concatenate([met, line])
+            return -1
+        return int(near[np.where(ahead, aside + 0.5 * onward, np.inf).argmin()])
 
-    return [_onward(_onward(line, k)[::-1], k)[::-1] for k, line in enumerate(lines)]
+    begin = np.concatenate([[0], np.cumsum([len(line) for line in every])])
+    aims = {}
+    for k, line in enumerate(lines):
+        aims[begin[k]], aims[begin[k + 1] - 1] = target(line, k), target(line[::-1], k)
+    out = []
+    for k, line in enumerate(lines):
+        parts = [line]
+        for end in (begin[k], begin[k + 1] - 1):
+            aim = aims[end]
+            # Of two ends that face each other, the first one bridges the gap.
+            if aim >= 0 and not (aims.get(aim) == end and aim < end):
+                bridge = table[end].copy()
+                bridge[:2] = table[aim, :2]
+                parts.insert(0 if end == begin[k] else len(parts), bridge[None])
+        out.append(np.concatenate(parts))
+    return out
 
 
 def meets(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> list[bool]:

@@ -32,7 +32,9 @@ def test_too_far_beside_or_behind_is_left():
 def test_lines_meet_each_other_but_not_themselves():
     one, two = line((0, 0), (4.6, 0)), line((5, 0), (9, 0))
     met, other = lead_on([one, two], [], reach=1.0)
-    assert met[-1, 0] == 5.0 and other[0, 0] == 4.6
+    # One bridge, not one from each side.
+    assert met[-1, 0] == 5.0 and other[0, 0] == 5.0
+    assert (len(met), len(other)) == (22, 21)
     ring = np.linspace(0.05, 2 * np.pi - 0.05, 60)
     almost = np.column_stack([5 * np.cos(ring), 5 * np.sin(ring), np.ones(60)])
     (same,) = lead_on([almost], [], reach=1.0)
