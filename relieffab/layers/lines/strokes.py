@@ -113,10 +113,11 @@ class _Mesh:
         if kind.of_surface is not None:
             return kind.of_surface(self.surface)
         here = self.creases if kind.name == "crease" else self.edges.faces[:, 1] < 0
-        seen = face_normals(self.placed.vertices, self.placed.faces)
+        sides = self.edges.faces[here]
+        seen = face_normals(self.placed.vertices, self.placed.faces[sides.ravel()])
         length = np.maximum(np.linalg.norm(seen, axis=1), 1e-300)
         sine = np.hypot(seen[:, 0], seen[:, 1]) / length
-        gentler = sine[self.edges.faces[here]].min(axis=1)
+        gentler = sine.reshape(-1, 2).min(axis=1)
         return edge_lines(self.placed.vertices, self.edges.ends[here], gentler)
 
 
