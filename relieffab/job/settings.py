@@ -6,6 +6,7 @@ from typing import Any
 
 from relieffab import units
 from relieffab.errors import InputError, suggest
+from relieffab.layers.lines.names import NAMES, USUAL, chosen
 
 
 @dataclass(frozen=True)
@@ -58,8 +59,6 @@ def _signed(text: Any) -> float:
 
 
 def _kinds(text: Any) -> tuple[str, ...]:
-    from relieffab.layers.lines.names import chosen
-
     return chosen(str(text).replace(",", " ").split())
 
 
@@ -125,9 +124,8 @@ SETTINGS = (
     Setting(
         "line_kinds",
         _kinds,
-        "outline,contour,boundary,crease,suggestive",
-        "lines drawn, with commas; also ridge, valley, apparent-ridge, suggestive-highlight, "
-        "principal-highlight",
+        ",".join(USUAL),
+        "lines drawn, with commas; also " + ", ".join(n for n in NAMES if n not in USUAL),
     ),
     Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
     Setting("line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth"),

@@ -39,7 +39,7 @@ def lambert(normals: Floats, lights: Floats) -> Floats:
     return np.maximum(np.einsum("ijn,kn->kij", normals, lights), 0.0)
 
 
-def face_normals(vertices: Floats, faces: Ints) -> Floats:
+def face_normals(vertices: Floats, faces: NDArray[np.integer]) -> Floats:
     """Return normals of the faces, (f, 3), as long as twice the face's area."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     return np.cross(b - a, c - a)

@@ -8,7 +8,7 @@ from relieffab.grid import Grid
 from relieffab.layers.lines.chains import Chains
 from relieffab.layers.lines.contours import fading
 from relieffab.layers.lines.surface import Surface
-from relieffab.layers.lines.visibility import in_pixels
+from relieffab.layers.lines.visibility import STEP, in_pixels
 from relieffab.layers.raster import Raster, interpolate
 
 Floats = NDArray[np.float64]
@@ -23,8 +23,6 @@ SLIP = 0.25
 """How far off a line its valley's floor may lie, mm; two pixels at least."""
 SOON = 2.0
 """How near a line a side must be hidden to count so, mm."""
-JUMP = 6.0
-"""Slope from pixel to pixel that parts one surface from another."""
 
 
 @kernel
@@ -100,7 +98,7 @@ def contrast(chains: Chains, angles: Floats, raster: Raster, grid: Grid) -> Floa
     points, across = in_pixels(chains, grid)
     out = np.empty(len(points))
     slip, soon, reach = (int(length / grid.pitch) for length in (SLIP, SOON, FARTHEST))
-    _rises(points, across, angles, raster.depth, max(slip, 2), soon, reach, JUMP * grid.pitch, out)
+    _rises(points, across, angles, raster.depth, max(slip, 2), soon, reach, STEP * grid.pitch, out)
     return out
 
 

@@ -6,6 +6,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from relieffab.layers.lines.edges import Edges
+from relieffab.layers.shading import face_normals
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -22,8 +23,7 @@ def turns(vertices: Floats, faces: Ints, edges: Edges) -> Floats:
 
     0 where there is one face, 180 where there are more than two.
     """
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    normal = np.cross(b - a, c - a)
+    normal = face_normals(vertices, faces)
     length = np.linalg.norm(normal, axis=1)
     normal /= np.where(length > 0, length, 1.0)[:, None]
     sides = edges.faces

@@ -107,23 +107,6 @@ def _unit_normals(f: _Faces, count: int) -> Floats:
     return total / np.where(flat, 1.0, length)
 
 
-def vertex_normals(vertices: Floats, faces: Ints) -> Floats:
-    """Average face normals by Max's weights, exact on a sphere.
-
-    Parameters
-    ----------
-    vertices : (v, 3) ndarray
-        mm.
-    faces : (f, 3) ndarray of int
-
-    Returns
-    -------
-    (v, 3) ndarray
-        Unit; (0, 0, 1) at vertices without a triangle of any area.
-    """
-    return _unit_normals(_measure(vertices, faces), len(vertices)).T.copy()
-
-
 def _corner_areas(f: _Faces) -> Floats:
     """Share each triangle out to its corners, each point to its nearest: (3, f), mm^2."""
     cot = np.stack(

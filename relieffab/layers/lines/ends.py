@@ -12,6 +12,13 @@ AHEAD = 6
 """Samples from a line's end that tell where it is heading."""
 
 
+def _index(lines: Sequence[Floats]) -> tuple[Floats, NDArray[np.int64], cKDTree]:
+    """Put the points of lines in one table, with whose each is and a tree to find them by."""
+    table = np.concatenate(lines)
+    owner = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+    return table, owner, cKDTree(table[:, :2])
+
+
 def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> list[Floats]:
     """Lengthen open lines to what lies ahead of their ends.
 
@@ -30,10 +37,7 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
     """
     if not lines:
         return []
-    every = [*lines, *drawn]
-    table = np.concatenate(every)
-    owner = np.repeat(np.arange(len(every)), [len(line) for line in every])
-    tree = cKDTree(table[:, :2])
+    table, owner, tree = _index([*lines, *drawn])
 
     def target(line: Floats, own: int) -> int:
         """Row of the table that lies straight ahead of the first point and near; -1 if none."""
@@ -48,7 +52,7 @@ def lead_on(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> l
             return -1
         return int(near[np.where(ahead, aside + 0.5 * onward, np.inf).argmin()])
 
-    begin = np.concatenate([[0], np.cumsum([len(line) for line in every])])
+    begin = np.concatenate([[0], np.cumsum([len(line) for line in lines])])
     aims = {}
     for k, line in enumerate(lines):
         aims[begin[k]], aims[begin[k + 1] - 1] = target(line, k), target(line[::-1], k)
@@ -70,8 +74,6 @@ def meets(lines: Sequence[Floats], drawn: Sequence[Floats], reach: float) -> lis
     """Tell which open lines have an end within `reach` mm of another line."""
     if not lines:
         return []
-    every = [*lines, *drawn]
-    owner = np.repeat(np.arange(len(every)), [len(line) for line in every])
-    tree = cKDTree(np.concatenate(every)[:, :2])
+    _, owner, tree = _index([*lines, *drawn])
     ends = [tree.query_ball_point(line[[0, -1], :2], reach) for line in lines]
     return [any((owner[near] != k).any() for near in both) for k, both in enumerate(ends)]

@@ -8,12 +8,10 @@ from numpy.typing import NDArray
 from relieffab.compiled import kernel
 from relieffab.grid import Grid
 from relieffab.layers.lines.chains import Chains
-from relieffab.layers.lines.visibility import in_pixels
+from relieffab.layers.lines.visibility import STEP, in_pixels
 
 Floats = NDArray[np.float64]
 
-STEEPEST = 6.0
-"""Slope from pixel to pixel that is a step."""
 REACH = 0.5
 """How far to look, as a share of the local triangles' size."""
 
@@ -69,7 +67,7 @@ def snap(chains: Chains, depth: Floats, grid: Grid) -> tuple[Chains, NDArray[np.
     points, across = in_pixels(chains, grid)
     filled = np.where(np.isfinite(depth), depth, -1e30)
     shift, found = np.empty(len(points)), np.empty(len(points), bool)
-    _nearest_steps(points, across, reach, filled, STEEPEST * grid.pitch, shift, found)
+    _nearest_steps(points, across, reach, filled, STEP * grid.pitch, shift, found)
     coarse = reach > 1.0
     shift = np.where(coarse, shift, 0.0) * grid.pitch
     moved = chains.points.copy()

@@ -80,15 +80,15 @@ def _outer(mask: Flags, grid: Grid, min_length: float) -> list[Line]:
 
 def _seen(kind: Kind, mesh: "_Mesh", raster: Raster, grid: Grid) -> tuple[Chains, Flags]:
     """All lines of a kind, sampled at the pitch, and which samples are seen."""
-    chains, real = resample(mesh.lines(kind), grid.pitch), None
+    chains = resample(mesh.lines(kind), grid.pitch)
+    keep = np.ones(len(chains.points), bool)
     if kind.name == "contour":
-        chains, real = snap(chains, raster.depth, grid)
-        real &= ~borders_background(chains, raster.mask, grid, reach=2.5 * grid.pitch)
+        chains, keep = snap(chains, raster.depth, grid)
+        keep &= ~borders_background(chains, raster.mask, grid, reach=2.5 * grid.pitch)
     if kind.name == "suggestive":
         telling = contrast_strength(chains, mesh.surface, raster, grid)
         chains = replace(chains, strength=np.minimum(chains.strength, telling))
-    seen = visible(chains, raster.depth, grid)
-    return chains, seen if real is None else seen & real
+    return chains, keep & visible(chains, raster.depth, grid)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,8 +115,7 @@ class _Mesh:
         here = self.creases if kind.name == "crease" else self.edges.faces[:, 1] < 0
         sides = self.edges.faces[here]
         seen = face_normals(self.placed.vertices, self.placed.faces[sides.ravel()])
-        length = np.maximum(np.linalg.norm(seen, axis=1), 1e-300)
-        sine = np.hypot(seen[:, 0], seen[:, 1]) / length
+        sine = np.hypot(seen[:, 0], seen[:, 1]) / np.maximum(np.linalg.norm(seen, axis=1), 1e-300)
         gentler = sine.reshape(-1, 2).min(axis=1)
         return edge_lines(self.placed.vertices, self.edges.ends[here], gentler)
 

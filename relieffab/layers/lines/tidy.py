@@ -28,6 +28,8 @@ Flags = NDArray[np.bool_]
 
 LOW, HIGH = 0.25, 0.5
 """Strength at which a secondary line may go on, and what any line must reach somewhere."""
+ALLOWED = 0.9
+"""What softening may take off a line that is just long enough."""
 WELL_APART = 1.5
 """What a line must be off the stronger ones somewhere, in units of the spacing."""
 SOFTNESS = 0.75
@@ -135,7 +137,7 @@ def tidy(kind: str, chains: Chains, keep: Flags, drawn: Sequence[Line], rules: R
         table = np.column_stack([chains.points[here, :2], chains.strength[here]])
         lines += _cut(kind, table, keep[here], room[here], rules)
     # Snapped contours may have drawn together.
-    lines = [line for line in lines if length(line.table) >= 0.9 * rules.min_length]
+    lines = [line for line in lines if length(line.table) >= ALLOWED * rules.min_length]
     lines.sort(key=lambda line: -len(line.table))
     return _meet(_thin_out(lines, rules), drawn, rules)
 
@@ -214,6 +216,6 @@ def _meet(lines: list[Line], drawn: Sequence[Line], rules: Rules) -> list[Line]:
             out.append(line)
             continue
         table, reaches = next(met), next(meeting)
-        if reaches or length(line.table) >= 0.9 * rules.lone_length:
+        if reaches or length(line.table) >= ALLOWED * rules.lone_length:
             out.append(replace(line, table=table))
     return out

@@ -9,6 +9,8 @@ from relieffab.layers.lines.chains import Chains
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+STEP = 6.0
+"""Slope from pixel to pixel that parts one surface from another, mm/mm."""
 STEEPEST = 4.0
 """Slope beyond which a pixel's depth is taken to lie no further off, mm/mm."""
 
