@@ -1,7 +1,8 @@
-"""Interruption: Ctrl-C and its kin, heard even where an exception goes unheard.
+"""Interruption: Ctrl-C and its kin, heard even where an exception must not be raised.
 
-A KeyboardInterrupt that is raised while a compiler's or a collector's callback runs
-is printed and dropped by Python; so it is raised again at the next sign of progress.
+The compiler calls back into Python: an exception raised there is printed and dropped,
+or brings the process down.  So while it runs nothing is raised; what was asked for is
+remembered, and raised at the next sign of progress.
 """
 
 import signal
@@ -12,11 +13,21 @@ from relieffab.progress import Progress
 _asked = False
 
 
-def _interrupt(_number: int, _frame: FrameType | None) -> None:
+def _compiling(frame: FrameType | None) -> bool:
+    """Tell whether a frame, or one that called it, is the compiler's."""
+    while frame is not None:
+        if str(frame.f_globals.get("__name__")).partition(".")[0] in ("numba", "llvmlite"):
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _interrupt(_number: int, frame: FrameType | None) -> None:
     """Leave by the way that Ctrl-C leaves: machines are stopped, scratch folders go."""
     global _asked  # noqa: PLW0603  # what a signal handler can reach
     _asked = True
-    raise KeyboardInterrupt
+    if not _compiling(frame):
+        raise KeyboardInterrupt
 
 
 def listen() -> None:

@@ -30,3 +30,11 @@ def test_a_stop_that_went_unheard_is_heard_at_the_next_step(listening, number):
 
 def test_without_a_stop_nothing_is_raised(listening):
     interrupt.heeding(silent)("relief", 0, 1)
+
+
+def test_nothing_is_raised_inside_the_compiler(listening):
+    inside = {"__name__": "llvmlite.binding.executionengine", "signal": signal}
+    exec("def callback():\n    signal.raise_signal(signal.SIGTERM)", inside)
+    inside["callback"]()
+    with pytest.raises(KeyboardInterrupt):
+        interrupt.heeding(silent)("relief", 1, 1)
