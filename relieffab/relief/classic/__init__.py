@@ -1,0 +1,1 @@
+"""The relief methods that came before: each from its own publication."""
