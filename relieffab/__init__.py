@@ -35,7 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "panel.model": ["Panel"],
         "picture": ["panel_picture"],
         "relief.model": ["Relief"],
-        "relief.solve": ["make_relief"],
+        "relief.make": ["make_relief"],
         "relief.store": ["read_relief", "to_tiff"],
         "relief.targets": ["Carving"],
         "stock": ["Stock"],

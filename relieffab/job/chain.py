@@ -25,7 +25,7 @@ from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
 from relieffab.picture import panel_picture, png8, png16
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
-from relieffab.relief.solve import make_relief
+from relieffab.relief.make import make_relief
 from relieffab.relief.store import grey, to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.stock import Stock

@@ -1,4 +1,4 @@
-"""Layers to Relief: projected Gauss-Newton steps, from coarse to fine."""
+"""Layers to heights: projected Gauss-Newton steps, from coarse to fine."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
-from relieffab.relief.edge import fill, inward_distance, wall
+from relieffab.relief.edge import inward_distance, wall
 from relieffab.relief.energy import Bounds, Terms, linearise, operator
-from relieffab.relief.model import Relief
 from relieffab.relief.multigrid import build, solve
 from relieffab.relief.pyramid import halve, refine
 from relieffab.relief.targets import Carving, Fit, terms_of
@@ -152,30 +151,29 @@ def _lowest(layers: Layers, carving: Carving) -> Floats:
     return np.where(edge > -carving.depth, -np.inf, -carving.depth)
 
 
-def make_relief(
+def solve_heights(
     layers: Layers,
-    carving: Carving | None = None,
+    carving: Carving,
     *,
     tolerance: float = 1e-2,
     progress: Progress = silent,
-) -> tuple[Relief, Solution]:
-    """Turn three aligned images into one height field within its bounds.
+) -> tuple[Floats, Solution]:
+    """Minimise the energy from coarse to fine.
 
     Parameters
     ----------
     layers : Layers
-    carving : Carving, optional
+    carving : Carving
     tolerance : float
         On the projected gradient, relative to the first guess's.
     progress : Progress
 
     Returns
     -------
-    relief : Relief
-        -depth <= h <= 0 exactly, 0 outside the figure, its highest point at 0.
+    heights : (rows + 1, cols + 1) ndarray
+        mm, within the bounds, 0 outside the figure; without the wall at its edge.
     solution : Solution
     """
-    carving = carving or Carving()
     level = layers
     figures = [(level, *cropped(level))]
     while min(figures[-1][1].grid.shape) > COARSEST:
@@ -199,7 +197,4 @@ def make_relief(
         )
         heights = place.put(solved, level.grid.node_shape)
         figure = place.put(terms.form_weight > 0, level.grid.node_shape)
-    heights[figure] -= heights[figure].max()
-    heights = np.maximum(heights, wall(layers.mask, layers.pitch, carving.wall_angle))
-    heights = np.minimum(fill(heights, layers.pitch, carving.fillet), 0.0)
-    return Relief(layers.grid, heights, layers.mask, carving.depth), solution
+    return heights, solution

@@ -5,8 +5,9 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
 from relieffab.relief.energy import linearise
+from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief
-from relieffab.relief.solve import descend, fit, make_relief, projected_gradient
+from relieffab.relief.solve import descend, fit, projected_gradient
 from relieffab.relief.targets import Carving, Fit, terms_of, to_nodes
 
 

@@ -1,0 +1,62 @@
+"""Layers to Relief, by our own method or one of the classic ones."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.layers.model import Layers
+from relieffab.progress import Progress, silent
+from relieffab.relief.edge import fill, wall
+from relieffab.relief.model import Relief
+from relieffab.relief.solve import Solution, solve_heights
+from relieffab.relief.targets import Carving, to_nodes
+
+Floats = NDArray[np.float64]
+
+
+def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
+    """Bring the highest point to the face, put the wall at the edge, fill what no tip reaches.
+
+    Parameters
+    ----------
+    heights : (rows + 1, cols + 1) ndarray
+        mm, 0 outside the figure.
+    layers : Layers
+    carving : Carving
+
+    Returns
+    -------
+    Relief
+    """
+    figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
+    raised = np.where(figure, heights - heights[figure].max(), 0.0)
+    walled = np.maximum(raised, wall(layers.mask, layers.pitch, carving.wall_angle))
+    filled = np.minimum(fill(walled, layers.pitch, carving.fillet), 0.0)
+    return Relief(layers.grid, filled, layers.mask, carving.depth)
+
+
+def make_relief(
+    layers: Layers,
+    carving: Carving | None = None,
+    *,
+    tolerance: float = 1e-2,
+    progress: Progress = silent,
+) -> tuple[Relief, Solution]:
+    """Turn three aligned images into one height field within its bounds.
+
+    Parameters
+    ----------
+    layers : Layers
+    carving : Carving, optional
+    tolerance : float
+        On the projected gradient, relative to the first guess's.
+    progress : Progress
+
+    Returns
+    -------
+    relief : Relief
+        -depth <= h <= 0 exactly, 0 outside the figure, its highest point at 0.
+    solution : Solution
+    """
+    carving = carving or Carving()
+    heights, solution = solve_heights(layers, carving, tolerance=tolerance, progress=progress)
+    return finish(heights, layers, carving), solution
