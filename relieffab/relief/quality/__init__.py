@@ -1,0 +1,1 @@
+"""How good a relief is, in figures that compare one method with another."""

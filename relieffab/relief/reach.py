@@ -1,0 +1,141 @@
+"""What a cutter of revolution leaves of a surface: the morphological closing by its tip."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from relieffab.compiled import parallel_kernel, prange
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Profile = Callable[[ArrayLike], Floats]
+
+TALL, WIDE = 8, 64  # nodes of a tile: its rows are long enough for vector instructions
+TURN = 32  # offsets after which a tile's lowest node is found anew
+
+
+def ball(radius: float) -> Profile:
+    """Profile of a ball: height above its lowest point over the distance from its axis.
+
+    Parameters
+    ----------
+    radius : float
+        mm.
+    """
+
+    def height(r: ArrayLike) -> Floats:
+        under = radius**2 - np.asarray(r, float) ** 2
+        return np.where(under >= 0, radius - np.sqrt(np.maximum(under, 0.0)), np.inf)
+
+    return height
+
+
+def tip(profile: Profile, pitch: float, depth: float, widest: int) -> tuple[Ints, Floats]:
+    """Sample the part of a cutter that can matter on a lattice.
+
+    What stands more than the relief's depth above the lowest point touches nothing
+    before that point does.
+
+    Parameters
+    ----------
+    profile : callable
+        Distance from the axis to height above the lowest point, mm; growing, and
+        infinite beyond the cutter.
+    pitch : float
+        mm.
+    depth : float
+        Of the relief, mm.
+    widest : int
+        Nodes from the axis beyond which there is no surface.
+
+    Returns
+    -------
+    offsets : (n, 2) ndarray of int
+        Rows and columns from the axis, the lowest first, without the axis itself.
+    drop : (n,) ndarray
+        Height of the cutter there, mm.
+    """
+    reach = int((profile(np.arange(widest + 1) * pitch) <= depth).sum()) - 1
+    side = np.arange(-reach, reach + 1)
+    away = np.hypot(side[:, None], side)
+    height = np.asarray(profile(away * pitch))
+    counts = (height <= depth) & (away > 0)
+    order = np.lexsort((away[counts], height[counts]))
+    return np.argwhere(counts)[order] - reach, height[counts][order]
+
+
+@parallel_kernel
+def _highest(field, reach, offsets, drop, out):  # type: ignore[no-untyped-def]
+    """out[i, j] = max over offsets of field[i + reach + di, j + reach + dj] - drop.
+
+    `field` is `out` with `reach` nodes more on each side, and `out` holds its own
+    values to begin with.  Offsets come the lowest drop first, so a tile is done when
+    the highest node in its reach could no longer raise its lowest.
+    """
+    rows, cols = out.shape
+    bands = (rows + TALL - 1) // TALL
+    for band in prange(bands):
+        top, bottom = band * TALL, min(rows, band * TALL + TALL)
+        for left in range(0, cols, WIDE):
+            right = min(cols, left + WIDE)
+            most = -np.inf
+            for i in range(top, bottom + 2 * reach):
+                for j in range(left, right + 2 * reach):
+                    most = max(most, field[i, j])
+            least = -np.inf
+            for k in range(len(drop)):
+                if k % TURN == 0:
+                    least = np.inf
+                    for i in range(top, bottom):
+                        for j in range(left, right):
+                            least = min(least, out[i, j])
+                if most - drop[k] <= least:
+                    break
+                down, across, low = reach + offsets[k, 0], reach + offsets[k, 1], drop[k]
+                for i in range(top, bottom):
+                    source = field[i + down, left + across : right + across]
+                    target = out[i, left:right]
+                    for j in range(len(target)):
+                        target[j] = max(target[j], source[j] - low)
+
+
+def closing(heights: Floats, pitch: float, profile: Profile) -> Floats:
+    """Fill what a cutter lowered onto a surface at every node does not reach.
+
+    The lowest places its tip may stand are max over s of h(s) - c(|s - x|), and
+    what it leaves is the least of tip(x) + c(|s - x|), at the nodes.
+
+    Parameters
+    ----------
+    heights : (rows, cols) ndarray
+        At nodes, mm, none above 0; the panel's face at 0 goes on beyond them.
+    pitch : float
+        Distance of the nodes, mm.
+    profile : callable
+        Distance from the axis to height above the lowest point, mm, as
+        `Cutter.profile` and `ball` give it: growing, infinite beyond the cutter.
+
+    Returns
+    -------
+    (rows, cols) ndarray
+        mm; nowhere below the heights nor above 0, and `heights` itself where the
+        cutter is narrower than the lattice.
+    """
+    below = heights < 0
+    if not below.any():
+        return heights
+    rows, cols = np.nonzero(below.any(axis=1))[0], np.nonzero(below.any(axis=0))[0]
+    box = slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)
+    sunken = np.ascontiguousarray(heights[box], dtype=np.float64)
+    offsets, drop = tip(profile, pitch, -float(sunken.min()), max(sunken.shape))
+    if not len(drop):
+        return heights
+    reach = int(offsets.max())
+    lowest = sunken.copy()
+    _highest(np.pad(sunken, reach), reach, offsets, drop, lowest)
+    left = -lowest
+    _highest(np.pad(-lowest, reach), reach, offsets, drop, left)
+    out = heights.copy()
+    out[box] = np.maximum(-left, sunken)
+    return out
