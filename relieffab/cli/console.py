@@ -53,7 +53,7 @@ def print_json(report: Mapping[str, Any]) -> None:
 def notes(report: Mapping[str, Any]) -> list[str]:
     """Gather what the person should know of a job."""
     found = list(report.get("model", {}).get("notes", []))
-    if not report.get("relief", {}).get("converged", True):
+    if report.get("relief", {}).get("converged") is False:
         found.append("the relief was not solved to the end: it may look unfinished")
     if report.get("stock", {}).get("note"):
         found.append(f"no stock.step: {report['stock']['note']}")

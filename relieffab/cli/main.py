@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
-from relieffab.cli import first, machine, stages
+from relieffab.cli import comparison, first, machine, stages
 from relieffab.cli.interrupt import listen
 from relieffab.errors import RelieffabError
 
@@ -30,6 +30,7 @@ for command in (
     stages.panel,
     stages.toolpath,
     stages.verify,
+    comparison.compare,
     machine.send,
     machine.machines,
 ):

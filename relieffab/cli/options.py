@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from relieffab.errors import InputError
 from relieffab.job.load import from_environment, gather
 from relieffab.job.report import read_report
 from relieffab.job.settings import TABLE, Chosen, Setting, resolve
@@ -15,6 +16,11 @@ from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PANEL_SETTINGS = ("mesh_tolerance",)
 TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
+# What makes no difference between methods, or is what `compare` goes through.
+_NOT_COMPARED = (
+    "depth", "method", "thickness", "mesh_tolerance",
+    *(name for name in TOOLPATH_SETTINGS if name != "lines"),
+)  # fmt: skip
 
 
 def _flags(name: str, settings: Iterable[str]) -> type:
@@ -35,10 +41,13 @@ def _flag(setting: Setting) -> tuple[str, Any, Any]:
 Options = _flags("Options", [name for name in TABLE if name != "model"])
 PanelOptions = _flags("PanelOptions", PANEL_SETTINGS)
 ToolpathOptions = _flags("ToolpathOptions", TOOLPATH_SETTINGS)
+CompareOptions = _flags("CompareOptions", [n for n in TABLE if n not in ("model", *_NOT_COMPARED)])
 
 Flags = Annotated[Options | None, Parameter(name="*")]  # type: ignore[valid-type]
 PanelFlags = Annotated[PanelOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 ToolpathFlags = Annotated[ToolpathOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
+CompareFlags = Annotated[CompareOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
+Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
 Output = Annotated[Path, Parameter(name=["--output", "-o"], help="folder for the files")]
 Overwrite = Annotated[
     bool, Parameter(negative="", help="replace the files of a job that is already there")
@@ -70,6 +79,14 @@ def settings_of(source: str | None, flags: Any) -> dict[str, Chosen]:
     if not source.lower().endswith(".toml"):
         return gather({**given, "model": source}, None, os.environ)
     return gather(given, Path(source), os.environ)
+
+
+def model_settings(source: str, flags: Any) -> dict[str, Chosen]:
+    """Resolve settings as `settings_of`; refuse a job file that names no model."""
+    settings = settings_of(source, flags)
+    if settings["model"].value is None:
+        raise InputError("the job names no model", expected='model = "FILE"', where=source)
+    return settings
 
 
 def settings_in(folder: Path, names: Iterable[str], flags: Any) -> dict[str, Chosen]:

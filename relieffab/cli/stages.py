@@ -15,13 +15,13 @@ from relieffab.cli.options import (
     Overwrite,
     PanelFlags,
     ShowConfig,
+    Source,
     ToolpathFlags,
+    model_settings,
     settings_in,
     settings_of,
 )
-from relieffab.errors import InputError
 
-Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
 Folder = Annotated[Path, Parameter(help="folder that `relieffab relief` or `make` left")]
 
 
@@ -76,12 +76,10 @@ def _from_model(
     as_json: bool,
     show_config: bool,
 ) -> int:
-    settings = settings_of(source, flags)
     if show_config:
-        console.configuration(settings, as_json=as_json)
+        console.configuration(settings_of(source, flags), as_json=as_json)
         return 0
-    if settings["model"].value is None:
-        raise InputError("the job names no model", expected='model = "FILE"', where=source)
+    settings = model_settings(source, flags)
     from relieffab.job import run
 
     with console.progress_bar() as progress:

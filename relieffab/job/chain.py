@@ -24,8 +24,8 @@ from relieffab.panel.model import Panel
 from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
 from relieffab.picture import panel_picture, png8, png16
 from relieffab.progress import Progress, silent
-from relieffab.relief.model import Relief
 from relieffab.relief.make import make_relief
+from relieffab.relief.model import Relief
 from relieffab.relief.store import grey, to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
@@ -56,6 +56,7 @@ def carving_of(job: Job) -> Carving:
         form_length=job.form_length,
         wall_angle=job.wall_angle,
         fillet=profiles.cutter(job.lines).tip_radius,
+        method=job.method,
     )
 
 
@@ -147,10 +148,11 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
         "pitch_mm": relief.grid.pitch,
         "origin_mm": list(relief.grid.origin),
         "depth_mm": relief.depth,
-        "energy": solution.energy,
-        "iterations": solution.iterations,
-        "residual": solution.residual,
-        "converged": solution.converged,
+        "method": job.method,
+        "energy": solution and solution.energy,
+        "iterations": solution and solution.iterations,
+        "residual": solution and solution.residual,
+        "converged": solution and solution.converged,
     }
 
 

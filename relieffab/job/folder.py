@@ -43,7 +43,9 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
 
 
 @contextlib.contextmanager
-def finished_together(folder: Path, stale: Sequence[str] = ()) -> Iterator[Path]:
+def finished_together(
+    folder: Path, stale: Sequence[str] = (), *, last: str = REPORT
+) -> Iterator[Path]:
     """Give a scratch folder whose files move to `folder` when all went well.
 
     The scratch folder lies in it or beside it, so that moving is renaming.  The
@@ -55,15 +57,17 @@ def finished_together(folder: Path, stale: Sequence[str] = ()) -> Iterator[Path]
     folder : Path
     stale : sequence of str
         Files that no longer belong to the job unless they are made again.
+    last : str
+        The report's name.
     """
     folder = folder.resolve()
     home = next(path for path in (folder, *folder.parents) if path.is_dir())
     scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=home))
     try:
         yield scratch
-        for name in (REPORT, *stale):
+        for name in (last, *stale):
             (folder / name).unlink(missing_ok=True)
-        for source in sorted(scratch.rglob("*"), key=lambda path: (path.name == REPORT, path)):
+        for source in sorted(scratch.rglob("*"), key=lambda path: (path.name == last, path)):
             target = folder / source.relative_to(scratch)
             if source.is_dir():
                 target.mkdir(parents=True, exist_ok=True)

@@ -7,6 +7,8 @@ from typing import Any
 from relieffab import units
 from relieffab.errors import InputError, suggest
 from relieffab.layers.lines.names import NAMES, USUAL, chosen
+from relieffab.relief.names import NAMES as METHODS
+from relieffab.relief.names import SUNKEN, known
 
 
 @dataclass(frozen=True)
@@ -101,6 +103,10 @@ def _view(text: Any) -> str:
     return str(text)
 
 
+def _method(text: Any) -> str:
+    return known(str(text))
+
+
 def _up(text: Any) -> str:
     if text not in ("y", "z"):
         raise InputError("the up axis is not known", expected="y or z", found=repr(text))
@@ -112,6 +118,7 @@ SETTINGS = (
     Setting("size", _size, "120x90mm", "panel, width x height"),
     Setting("thickness", _positive, "12mm", "of the stock"),
     Setting("depth", _positive, "3mm", "of the relief at its deepest"),
+    Setting("method", _method, SUNKEN, "of making the relief: " + ", ".join(METHODS)),
     Setting("resolution", _resolution, "1024x768", "pixels across and down"),
     Setting("margin", _not_negative, "6mm", "flat border round the figure"),
     Setting("view", _view, "front", "front, back, left, right, top or bottom"),
@@ -160,6 +167,7 @@ class Job:
     size: tuple[float, float]
     thickness: float
     depth: float
+    method: str
     resolution: tuple[int, int]
     margin: float
     view: str

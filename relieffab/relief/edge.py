@@ -1,4 +1,4 @@
-"""The figure's edge and its hollows: walls with a draft, nothing narrower than a cutter's tip."""
+"""The figure's edge: walls with a draft."""
 
 from math import radians, tan
 
@@ -47,32 +47,3 @@ def wall(mask: Bools, pitch: float, angle: float) -> Floats:
     inside = np.maximum(inward_distance(mask), 0.0)
     eased = np.where(inside < 2.0, inside**2 / 4.0, inside - 1.0)
     return -tan(radians(angle)) * pitch * eased
-
-
-def fill(heights: Floats, pitch: float, radius: float) -> Floats:
-    """Fill what a ball of some radius, rolled over the surface, does not reach.
-
-    Parameters
-    ----------
-    heights : (rows + 1, cols + 1) ndarray
-        mm.
-    pitch : float
-        mm.
-    radius : float
-        Of the ball, mm.
-
-    Returns
-    -------
-    (rows + 1, cols + 1) ndarray
-        The morphological closing: nowhere lower, and nowhere above what surrounds it.
-    """
-    reach = int(radius / pitch)
-    if reach == 0:
-        return heights
-    i, j = np.mgrid[-reach : reach + 1, -reach : reach + 1] * pitch
-    under = radius**2 - i**2 - j**2
-    ball = np.sqrt(np.maximum(under, 0.0)) - radius
-    padded = np.pad(heights, 2 * reach, mode="edge")
-    lifted = ndimage.grey_dilation(padded, footprint=under >= 0, structure=ball)
-    closed = ndimage.grey_erosion(lifted, footprint=under >= 0, structure=ball)
-    return np.maximum(closed[2 * reach : -2 * reach, 2 * reach : -2 * reach], heights)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.compiled import parallel_kernel, prange
+from relieffab.compiled import kernel, parallel_kernel, prange
 
 Floats = NDArray[np.float64]
 Bounds = tuple[Floats | float, Floats | float]
@@ -163,9 +163,81 @@ def _gather(gp, gq, gt, h, form, form_weight, pitch, gradient, sums):  # type: i
         sums[i] = total
 
 
+@kernel
+def _slope_row(weight, twist, scale, i, first, stencil):  # type: ignore[no-untyped-def]
+    """Add the couplings of one row of pixels' slopes and twists, from column `first` on."""
+    width = len(weight)
+    for a in range(4):
+        for b in range(4):
+            pp = np.float32((2 * (a % 2) - 1) * (2 * (b % 2) - 1) * scale)
+            qq = np.float32((1 - 2 * (a // 2)) * (1 - 2 * (b // 2)) * scale)
+            pq = np.float32(pp * qq / scale)
+            o = 5 * (b // 2 - a // 2 + 2) + b % 2 - a % 2 + 2
+            start = first + a % 2
+            row = stencil[i + a // 2, o, start : start + width]
+            for k in range(width):
+                row[k] += (pp + qq) * weight[k] + pq * twist[k]
+
+
+@kernel
+def _radiance_rows(dp, dq, scale, i, first, rows):  # type: ignore[no-untyped-def]
+    """Write the radiance's gradient at a row of nodes by the 9 heights around each.
+
+    rows[k, 0 or 1, 3 a + b, t] is the derivative of light k's gradient in X or Y,
+    at node [i, first + t], by the height of node [i + a - 1, first + t + b - 1].
+    """
+    rows[:] = np.float32(0.0)
+    width = rows.shape[3]
+    for k in range(len(dp)):
+        for pixel in range(4):
+            u, v = pixel // 2, pixel % 2
+            start = first - 1 + v
+            by_p = dp[k, i - 1 + u, start : start + width]
+            by_q = dq[k, i - 1 + u, start : start + width]
+            for a in range(4):
+                right, up = (2 * (a % 2) - 1) * scale, (1 - 2 * (a // 2)) * scale
+                place = 3 * (u + a // 2) + v + a % 2
+                x, y = rows[k, 0, place], rows[k, 1, place]
+                for t in range(width):
+                    value = np.float32(right * by_p[t] + up * by_q[t])
+                    x[t] += (2 * v - 1) * value
+                    y[t] += (1 - 2 * u) * value
+
+
+@kernel
+def _light_row(rows, weight, i, first, stencil):  # type: ignore[no-untyped-def]
+    """Add the couplings of one row of nodes' radiance gradients, from column `first` on."""
+    width = len(weight)
+    heavy = np.empty(width, np.float32)
+    for k in range(len(rows)):
+        for axis in range(2):
+            for a in range(9):
+                derivative = rows[k, axis, a]
+                for t in range(width):
+                    heavy[t] = weight[t] * derivative[t]
+                for b in range(9):
+                    o = 5 * (b // 3 - a // 3 + 2) + b % 3 - a % 3 + 2
+                    start = first - 1 + a % 3
+                    out = stencil[i + a // 3 - 1, o, start : start + width]
+                    other = rows[k, axis, b]
+                    for t in range(width):
+                        out[t] += heavy[t] * other[t]
+
+
+@kernel
+def _span(weight):  # type: ignore[no-untyped-def]
+    """First entry of a row that is not 0, and one past the last."""
+    first, last = 0, len(weight)
+    while first < last and weight[first] == 0.0:
+        first += 1
+    while last > first and weight[last - 1] == 0.0:
+        last -= 1
+    return first, last
+
+
 @parallel_kernel
-def _assemble(  # type: ignore[no-untyped-def] # noqa: PLR0912
-    dp, dq, light_weight, depth_weight, line_weight, twist_weight, form_weight, pitch, stencil
+def _assemble(  # type: ignore[no-untyped-def]
+    dp, dq, light_weight, slope_weight, twist_weight, form_weight, pitch, stencil
 ):
     """Gauss-Newton operator as 25 couplings a node, laid out (row, coupling, column).
 
@@ -179,38 +251,16 @@ def _assemble(  # type: ignore[no-untyped-def] # noqa: PLR0912
             i = 1 + colour + 3 * block
             if i >= n - 1:
                 continue
-            x, y = np.empty((3, 3)), np.empty((3, 3))
-            for j in range(1, m - 1):
+            for j in range(m):
                 stencil[i, 12, j] += form_weight[i, j]
-                w, t = scale * (depth_weight[i, j] + line_weight[i, j]), scale * twist_weight[i, j]
-                if w > 0.0 or t > 0.0:
-                    for a in range(4):
-                        for b in range(4):
-                            pp = (2 * (a % 2) - 1) * (2 * (b % 2) - 1)
-                            qq = (1 - 2 * (a // 2)) * (1 - 2 * (b // 2))
-                            o = 5 * (b // 2 - a // 2 + 2) + b % 2 - a % 2 + 2
-                            stencil[i + a // 2, o, j + a % 2] += w * (pp + qq) + t * pp * qq
-                w = light_weight[i, j]
-                if w == 0.0:
-                    continue
-                for k in range(len(dp)):
-                    x[:], y[:] = 0.0, 0.0
-                    for pixel in range(4):
-                        u, v = pixel // 2, pixel % 2
-                        sx, sy = 2.0 * v - 1.0, 1.0 - 2.0 * u
-                        by_p, by_q = dp[k, i - 1 + u, j - 1 + v], dq[k, i - 1 + u, j - 1 + v]
-                        for a in range(4):
-                            value = by_p * (2 * (a % 2) - 1) + by_q * (1 - 2 * (a // 2))
-                            x[u + a // 2, v + a % 2] += sx * value * scale
-                            y[u + a // 2, v + a % 2] += sy * value * scale
-                    for a in range(3):
-                        for b in range(3):
-                            xa, ya = w * x[a, b], w * y[a, b]
-                            row = stencil[i + a - 1]
-                            for c in range(3):
-                                for d in range(3):
-                                    o = 5 * (c - a + 2) + d - b + 2
-                                    row[o, j + b - 1] += xa * x[c, d] + ya * y[c, d]
+            first, last = _span(slope_weight[i] + twist_weight[i])
+            slopes, twists = slope_weight[i, first:last], twist_weight[i, first:last]
+            _slope_row(slopes, twists, scale, i, first, stencil)
+            first, last = _span(light_weight[i])
+            if last > first:
+                rows = np.empty((len(dp), 2, 9, last - first), np.float32)
+                _radiance_rows(dp, dq, scale, i, first, rows)
+                _light_row(rows, light_weight[i, first:last], i, first, stencil)
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,7 +330,7 @@ def operator(terms: Terms, linearisation: Linearisation) -> NDArray[np.float32]:
     stencil = np.zeros((n, 25, m), np.float32)
     dp, dq = linearisation.derivatives
     _assemble(
-        dp, dq, terms.light_weight, terms.depth_weight, terms.line_weight, terms.twist_weight,
+        dp, dq, terms.light_weight, terms.depth_weight + terms.line_weight, terms.twist_weight,
         terms.form_weight, terms.pitch, stencil,
     )  # fmt: skip
     return stencil

@@ -5,8 +5,11 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
-from relieffab.relief.edge import fill, wall
+from relieffab.relief.classic.methods import METHODS
+from relieffab.relief.edge import wall
 from relieffab.relief.model import Relief
+from relieffab.relief.names import SUNKEN
+from relieffab.relief.reach import ball, closing
 from relieffab.relief.solve import Solution, solve_heights
 from relieffab.relief.targets import Carving, to_nodes
 
@@ -30,7 +33,7 @@ def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
     figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
     raised = np.where(figure, heights - heights[figure].max(), 0.0)
     walled = np.maximum(raised, wall(layers.mask, layers.pitch, carving.wall_angle))
-    filled = np.minimum(fill(walled, layers.pitch, carving.fillet), 0.0)
+    filled = np.minimum(closing(walled, layers.pitch, ball(carving.fillet)), 0.0)
     return Relief(layers.grid, filled, layers.mask, carving.depth)
 
 
@@ -40,7 +43,7 @@ def make_relief(
     *,
     tolerance: float = 1e-2,
     progress: Progress = silent,
-) -> tuple[Relief, Solution]:
+) -> tuple[Relief, Solution | None]:
     """Turn three aligned images into one height field within its bounds.
 
     Parameters
@@ -55,8 +58,11 @@ def make_relief(
     -------
     relief : Relief
         -depth <= h <= 0 exactly, 0 outside the figure, its highest point at 0.
-    solution : Solution
+    solution : Solution or None
+        None where a classic method made it.
     """
     carving = carving or Carving()
+    if carving.method != SUNKEN:
+        return finish(METHODS[carving.method](layers, carving.depth), layers, carving), None
     heights, solution = solve_heights(layers, carving, tolerance=tolerance, progress=progress)
     return finish(heights, layers, carving), solution

@@ -9,13 +9,15 @@ from scipy import ndimage
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
-from relieffab.relief.compress import compress, form, occlusions, slopes
+from relieffab.relief.compress import compress, form, occlusions, slopes, steps
 from relieffab.relief.energy import Bounds, Terms
 from relieffab.relief.model import pixel_slopes
+from relieffab.relief.names import SUNKEN, known
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
+STEP = 1 / 16  # of the depth: what stays of a jump between two parts of the figure
 TWIST = 0.05  # share of the other terms' weight that a pixel's twist gets
 
 
@@ -39,6 +41,9 @@ class Carving:
         Radius of a ball that reaches everywhere: what is narrower is filled, so
         that a cutter with that tip carves what is shown, mm.
     depth_weight, light_weight, line_weight, form_weight : float
+    method : str
+        'sunken', which all of the above serves, or a method of `relief.classic`,
+        which takes the depth alone; wall and fillet are the same for all.
     """
 
     depth: float = 3.0
@@ -50,8 +55,10 @@ class Carving:
     light_weight: float = 1.0
     line_weight: float = 4.0
     form_weight: float = 1.0
+    method: str = SUNKEN
 
     def __post_init__(self) -> None:
+        known(self.method)
         if not 0 < self.depth < np.inf:
             raise InputError(
                 "the relief needs a depth", expected="more than 0 mm", found=f"{self.depth:g} mm"
@@ -165,15 +172,15 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
     torn[:, 1:] |= across
     torn[:-1] |= down
     torn[1:] |= down
-    sound = mask & ~torn
+    stepped = steps(layers, across, down, STEP * carving.depth)
     cut = groove(layers, line_depth)
     cut_slope = pixel_slopes(cut, pitch) * mask
     count = int(mask.sum())
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
     base = to_nodes(form(layers, fitted.span), mask.astype(float)) + cut
-    depth_weight = carving.depth_weight * sound / count
-    line_weight = carving.line_weight * stencil * sound / count
+    depth_weight = carving.depth_weight * mask / count
+    line_weight = carving.line_weight * stencil * mask / count
     light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
     corners = light_weight[:-1, :-1] + light_weight[:-1, 1:]
     corners += light_weight[1:, :-1] + light_weight[1:, 1:]
@@ -182,7 +189,7 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
         lights=layers.lights,
         depth_weight=depth_weight,
         line_weight=line_weight,
-        slope=fitted.gain * compress(slope, mask) + cut_slope,
+        slope=np.where(torn, stepped, fitted.gain * compress(slope, mask)) + cut_slope,
         light_weight=light_weight,
         radiance=layers.shading + _tilted(layers, cut_slope),
         twist_weight=TWIST * (depth_weight + line_weight + corners / (4 * pitch**2)),

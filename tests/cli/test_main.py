@@ -253,6 +253,7 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--line-kinds", ","], "needs a kind of line"),
         (["--line-length", "-1mm"], "0 or more"),
         (["--line-spread", "wide"], "not a length"),
+        (["--method", "lineer"], "did you mean linear"),
     ],
 )
 def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):
@@ -318,3 +319,19 @@ def test_help_loads_nothing_heavy():
         "sys.exit(repr(bad) if bad else 0)"
     )
     subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_a_classic_method_makes_a_relief_and_says_so(model, tmp_path, capsys):
+    folder = tmp_path / "job"
+    arguments = ["relief", str(model), *SMALL, "--method", "linear", "-o", str(folder), "--json"]
+    assert run(arguments) == 0
+    told = capsys.readouterr()
+    part = json.loads(told.out)["relief"]
+    assert part["method"] == "linear"
+    assert part["energy"] is part["iterations"] is part["residual"] is part["converged"] is None
+    assert "not solved" not in told.err
+    assert json.loads((folder / "report.json").read_text())["settings"]["method"] == "linear"
+
+
+def test_our_own_method_is_named_too(made):
+    assert json.loads((made / "report.json").read_text())["relief"]["method"] == "sunken"

@@ -4,7 +4,7 @@ import pytest
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import default_lights
-from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes
+from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes, steps
 
 
 def plane_layers(p, q, step=0.0):
@@ -76,3 +76,25 @@ def test_form_keeps_the_depth_order_and_its_room():
     assert (np.diff(f.ravel()[order]) >= 0).all()
     assert f.min() == pytest.approx(-4)
     assert f.max() == pytest.approx(-1)
+
+
+def test_a_jump_leaves_a_small_step_of_the_right_sign():
+    layers = plane_layers(0.0, 0.0, step=5.0)
+    across, down = occlusions(layers, slopes(layers))
+    slope = steps(layers, across, down, 0.3)
+    # Climbing the two pixels beside the jump adds up to the step.
+    np.testing.assert_allclose(slope[0].sum(axis=1) * layers.pitch, 0.3)
+    assert (np.nonzero(slope[0, 2])[0] == [14, 15]).all()
+    assert (slope[1] == 0).all()
+
+
+def test_a_near_row_in_front_steps_up_towards_the_operator():
+    layers = plane_layers(0.0, 0.0)
+    depth = layers.depth.copy()
+    depth[10:] += 0.2
+    nearer = Layers(**{**vars(layers), "depth": depth})
+    down = np.zeros((19, 30), bool)
+    down[9] = True
+    slope = steps(nearer, np.zeros((20, 29), bool), down, 1.0)
+    # Y grows away from the operator, so the slope is negative; a low jump stays whole.
+    np.testing.assert_allclose(slope[1].sum(axis=0) * layers.pitch, -0.2)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from relieffab.relief.edge import fill, inward_distance, wall
+from relieffab.relief.edge import inward_distance, wall
 
 
 def disc(radius, size=80):
@@ -23,17 +23,3 @@ def test_the_wall_has_its_angle():
     assert (w[:9] == 0).all()
     slope = (w[40, 16] - w[40, 20]) / (4 * 0.2)
     assert np.degrees(np.arctan(slope)) == pytest.approx(80, abs=0.5)
-
-
-def test_filling_is_the_rolling_ball_and_keeps_what_the_ball_reaches():
-    # A slot 0.3 mm wide and 1 mm deep; a ball of 0.25 mm radius bridges it.
-    pitch, radius = 0.05, 0.25
-    heights = np.zeros((41, 41))
-    heights[:, 18:23] = -1.0
-    filled = fill(heights, pitch, radius)
-    sag = radius - np.sqrt(radius**2 - 0.15**2)
-    assert filled[20, 20] == pytest.approx(-sag, abs=0.01)
-    assert (filled >= heights).all()
-    bowl = np.add.outer(np.linspace(-1, 1, 41) ** 2, np.linspace(-1, 1, 41) ** 2)
-    np.testing.assert_allclose(fill(bowl, pitch, radius)[9:-9, 9:-9], bowl[9:-9, 9:-9], atol=5e-3)
-    assert fill(heights, 1.0, radius) is heights

@@ -4,9 +4,10 @@ import pytest
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
-from relieffab.relief.energy import linearise
+from relieffab.relief.energy import linearise, operator
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief
+from relieffab.relief.multigrid import build, solve
 from relieffab.relief.solve import descend, fit, projected_gradient
 from relieffab.relief.targets import Carving, Fit, terms_of, to_nodes
 
@@ -154,3 +155,19 @@ def test_the_fit_stays_within_the_depth_and_leaves_no_plateaus(layers):
         assert (inner < 1e-9 - depth).mean() < (0.02 if depth > 1 else 0.15)
     assert gains == sorted(gains)
     assert gains[0] < gains[-1]
+
+
+def test_iterations_do_not_grow_with_the_resolution_past_an_occlusion(layers, finer_layers):
+    # Conjugate gradients to 1e-5 on the first Gauss-Newton system; half the figure
+    # stands in front of the other half.
+    counts = []
+    for plain in (layers, finer_layers):
+        depth = plain.depth.copy()
+        depth[:, plain.grid.cols // 2 :] += 4.0
+        torn = Layers(**{**vars(plain), "depth": depth * plain.mask})
+        terms = terms_of(torn, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-np.inf, np.inf))
+        here = linearise(terms, 0.3 * terms.form)
+        levels = build(operator(terms, here), terms.form_weight > 0)
+        counts.append(solve(levels, -here.gradient, tolerance=1e-5)[1])
+    assert max(counts) <= 14
+    assert counts[1] <= counts[0] + 2

@@ -54,6 +54,7 @@ def test_nothing_is_asked_outside_the_figure(layers):
         {"form_length": 0.0},
         {"light_weight": -1.0},
         {"form_weight": 0.0},
+        {"method": "engraved"},
     ],
 )
 def test_carvings_that_make_no_sense_are_refused(values):

@@ -1,0 +1,20 @@
+"""The names of the ways to make a relief, without what it takes to make one."""
+
+from relieffab.errors import InputError, suggest
+
+SUNKEN = "sunken"
+CLASSIC = ("linear", "gradient", "bilateral", "histogram", "weyrich")
+NAMES = (SUNKEN, *CLASSIC)
+
+
+def known(name: str) -> str:
+    """Return the name of a method.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    if name not in NAMES:
+        raise InputError("there is no method of that name", found=name, hint=suggest(name, NAMES))
+    return name
