@@ -26,6 +26,7 @@ from relieffab.relief.model import Relief
 from relieffab.relief.names import NAMES
 from relieffab.relief.quality.measure import measure
 from relieffab.relief.targets import Carving
+from relieffab.relief.window import figure_size
 
 USUAL = (2.0, 5.0, 10.0)  # percent of the figure's height
 TABLE, SHEET = "compare.json", "compare.png"
@@ -57,12 +58,6 @@ def percentages(text: str) -> tuple[float, ...]:
     return tuple(sorted(values))
 
 
-def figure_height(layers: Layers) -> float:
-    """Return how high the figure is on the panel, mm."""
-    rows = np.nonzero(layers.mask.any(axis=1))[0]
-    return layers.pitch * float(np.ptp(rows) + 1)
-
-
 def _share(progress: Progress, before: int, count: int) -> Progress:
     """Tell of one relief's progress as of a part of all."""
 
@@ -75,7 +70,7 @@ def _share(progress: Progress, before: int, count: int) -> Progress:
 def _every(layers: Layers, job: Job, depths: Sequence[float], progress: Progress) -> Iterator[Made]:
     """Make and measure the reliefs, a depth after the other."""
     carving, cutter = chain.carving_of(job), chain.cutters_of(job)[2]
-    height = figure_height(layers)
+    height = figure_size(layers)[0]
     ways = [(percent, name) for percent in depths for name in NAMES]
     for done, (percent, name) in enumerate(ways):
         show = _share(progress, done, len(ways))
@@ -176,7 +171,7 @@ def compare(
         "model": {**model, "notes": [*model["notes"], *([note] if note else [])]},
         "view": seen,
         "settings": {k: v for k, v in begun["settings"].items() if k not in ("depth", "method")},
-        "figure_height_mm": figure_height(layers),
+        "figure_height_mm": figure_size(layers)[0],
         "cutter": chain.cutters_of(job)[2].name,
         "reliefs": [row for _, row in made],
     }

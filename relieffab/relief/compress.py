@@ -92,6 +92,16 @@ def occlusions(layers: Layers, v: Floats) -> tuple[Bools, Bools]:
     return across, down
 
 
+def beside(across: Bools, down: Bools) -> Bools:
+    """Pixels on either side of the jumps that `occlusions` finds, (rows, cols)."""
+    torn = np.zeros((len(across), down.shape[1]), bool)
+    torn[:, :-1] |= across
+    torn[:, 1:] |= across
+    torn[:-1] |= down
+    torn[1:] |= down
+    return torn
+
+
 def steps(layers: Layers, across: Bools, down: Bools, most: float) -> Floats:
     """Slopes that keep a small step where one part stands in front of another.
 

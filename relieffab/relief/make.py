@@ -7,11 +7,11 @@ from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
 from relieffab.relief.classic.methods import METHODS
 from relieffab.relief.edge import wall
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.names import SUNKEN
 from relieffab.relief.reach import ball, closing
 from relieffab.relief.solve import Solution, solve_heights
-from relieffab.relief.targets import Carving, to_nodes
+from relieffab.relief.targets import Carving
 
 Floats = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
     -------
     Relief
     """
-    figure = to_nodes(layers.mask.astype(float), np.ones(layers.grid.shape)) > 0
+    figure = nodes_of(layers.mask)
     raised = np.where(figure, heights - heights[figure].max(), 0.0)
     walled = np.maximum(raised, wall(layers.mask, layers.pitch, carving.wall_angle))
     filled = np.minimum(closing(walled, layers.pitch, ball(carving.fillet)), 0.0)

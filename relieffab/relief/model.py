@@ -30,6 +30,24 @@ def pixel_slopes(heights: Floats, pitch: float) -> Floats:
     return np.stack([b + d - a - c, a + b - c - d]) / (2 * pitch)
 
 
+def nodes_of(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Nodes that any pixel of the figure touches.
+
+    Parameters
+    ----------
+    mask : (rows, cols) ndarray of bool
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray of bool
+    """
+    touched = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
+    for rows in (slice(None, -1), slice(1, None)):
+        for cols in (slice(None, -1), slice(1, None)):
+            touched[rows, cols] |= mask
+    return touched
+
+
 @dataclass(frozen=True, eq=False)
 class Relief:
     """A sunken relief; arrays are read-only.

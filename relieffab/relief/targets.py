@@ -9,10 +9,11 @@ from scipy import ndimage
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
-from relieffab.relief.compress import compress, form, occlusions, slopes, steps
+from relieffab.relief.compress import beside, compress, form, occlusions, slopes, steps
 from relieffab.relief.energy import Bounds, Terms
-from relieffab.relief.model import pixel_slopes
+from relieffab.relief.model import nodes_of, pixel_slopes
 from relieffab.relief.names import SUNKEN, known
+from relieffab.relief.window import figure_size
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -161,23 +162,17 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
     Terms
     """
     mask, pitch = layers.mask, layers.pitch
-    rows, cols = np.nonzero(mask.any(axis=1))[0], np.nonzero(mask.any(axis=0))[0]
-    widest = pitch * max(np.ptp(rows) + 1, np.ptp(cols) + 1)
-    form_length = carving.form_length or 0.02 * widest
+    form_length = carving.form_length or 0.02 * max(figure_size(layers))
     line_depth = carving.depth / 16 if carving.line_depth is None else carving.line_depth
     slope = slopes(layers)
     across, down = occlusions(layers, slope)
-    torn = np.zeros_like(mask)
-    torn[:, :-1] |= across
-    torn[:, 1:] |= across
-    torn[:-1] |= down
-    torn[1:] |= down
+    torn = beside(across, down)
     stepped = steps(layers, across, down, STEP * carving.depth)
     cut = groove(layers, line_depth)
     cut_slope = pixel_slopes(cut, pitch) * mask
     count = int(mask.sum())
     stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
-    figure = to_nodes(mask.astype(float), np.ones(mask.shape)) > 0
+    figure = nodes_of(mask)
     base = to_nodes(form(layers, fitted.span), mask.astype(float)) + cut
     depth_weight = carving.depth_weight * mask / count
     line_weight = carving.line_weight * stencil * mask / count

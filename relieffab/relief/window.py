@@ -57,6 +57,12 @@ class Window:
         return (mine[0], mine[1]), (theirs[0], theirs[1])
 
 
+def figure_size(layers: Layers) -> tuple[float, float]:
+    """Height and width of the figure on the panel, mm."""
+    rows, cols = (np.nonzero(layers.mask.any(axis=axis))[0] for axis in (1, 0))
+    return layers.pitch * float(np.ptp(rows) + 1), layers.pitch * float(np.ptp(cols) + 1)
+
+
 def cropped(layers: Layers) -> tuple[Layers, Window]:
     """Cut out the figure with a border of background."""
     rows, cols = np.nonzero(layers.mask)

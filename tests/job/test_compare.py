@@ -7,9 +7,10 @@ import trimesh
 from PIL import Image
 
 from relieffab.errors import InputError
-from relieffab.job.compare import compare, figure_height, percentages
+from relieffab.job.compare import compare, percentages
 from relieffab.job.settings import resolve
 from relieffab.relief.names import NAMES
+from relieffab.relief.window import figure_size
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +74,7 @@ def test_a_job_in_the_folder_stays(settings, tmp_path):
 
 def test_the_height_of_the_figure(layers):
     rows = np.nonzero(layers.mask.any(axis=1))[0]
-    assert figure_height(layers) == pytest.approx((rows[-1] - rows[0] + 1) * layers.pitch)
+    assert figure_size(layers)[0] == pytest.approx((rows[-1] - rows[0] + 1) * layers.pitch)
 
 
 def test_depths_are_sorted():

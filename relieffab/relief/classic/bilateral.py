@@ -12,7 +12,8 @@ from relieffab.compiled import parallel_kernel, prange
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import TAILS, extent, model_slopes, stretch
 from relieffab.relief.classic.gradient import attenuate
-from relieffab.relief.classic.integrate import integrate, nodes_of
+from relieffab.relief.classic.integrate import integrate
+from relieffab.relief.model import nodes_of
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]

@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import occlusions, slopes
+from relieffab.relief.compress import beside, occlusions, slopes
+from relieffab.relief.window import figure_size
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -20,8 +21,7 @@ def extent(layers: Layers) -> float:
     The methods measure their lengths by it, so that they do the same at any
     resolution.
     """
-    rows, cols = np.nonzero(layers.mask.any(axis=1))[0], np.nonzero(layers.mask.any(axis=0))[0]
-    return layers.pitch * float(max(np.ptp(rows), np.ptp(cols)) + 1)
+    return max(figure_size(layers))
 
 
 def smooth(field: Floats, sound: Bools, sigma: float) -> Floats:
@@ -54,13 +54,7 @@ def model_slopes(layers: Layers) -> tuple[Floats, Bools]:
         Pixels of the figure whose neighbours all belong to the same surface.
     """
     slope = slopes(layers)
-    across, down = occlusions(layers, slope)
-    whole = layers.mask.copy()
-    whole[:, :-1] &= ~across
-    whole[:, 1:] &= ~across
-    whole[:-1] &= ~down
-    whole[1:] &= ~down
-    return slope, whole
+    return slope, layers.mask & ~beside(*occlusions(layers, slope))
 
 
 def stretch(heights: Floats, figure: Bools, depth: float, *, tails: float = 0.0) -> Floats:

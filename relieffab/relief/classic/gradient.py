@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import TAILS, extent, model_slopes, smooth, stretch
-from relieffab.relief.classic.integrate import integrate, nodes_of
+from relieffab.relief.classic.integrate import integrate
+from relieffab.relief.model import nodes_of
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]

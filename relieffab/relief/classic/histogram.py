@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import EVEN, extent, model_slopes, stretch
-from relieffab.relief.classic.integrate import nodes_of
+from relieffab.relief.model import nodes_of
 from relieffab.relief.targets import to_nodes
 from relieffab.relief.window import cropped
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.relief.model import pixel_slopes
+from relieffab.relief.model import nodes_of, pixel_slopes
 from relieffab.relief.multigrid import build, solve
 
 Floats = NDArray[np.float64]
@@ -19,23 +19,6 @@ ROUNDS = 12  # of correction, at most
 _ALONG = np.array([-1.0, 1.0, -1.0, 1.0])
 _UPWARD = np.array([1.0, 1.0, -1.0, -1.0])
 _TWISTED = np.array([1.0, -1.0, -1.0, 1.0])
-
-
-def nodes_of(mask: Bools) -> Bools:
-    """Nodes that any pixel of the figure touches.
-
-    Parameters
-    ----------
-    mask : (rows, cols) ndarray of bool
-
-    Returns
-    -------
-    (rows + 1, cols + 1) ndarray of bool
-    """
-    touched = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
-    for near, right in np.ndindex(2, 2):
-        touched[_corner(mask.shape, near, right)] |= mask
-    return touched
 
 
 def integrate(

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import stretch
-from relieffab.relief.classic.integrate import nodes_of
+from relieffab.relief.model import nodes_of
 from relieffab.relief.targets import to_nodes
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@ from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import occlusions, slopes
+from relieffab.relief.compress import beside, occlusions, slopes
 from relieffab.relief.model import Relief, pixel_slopes
 
 Floats = NDArray[np.float64]
@@ -94,13 +94,7 @@ class Pair:
     @cached_property
     def torn(self) -> Bools:
         """Pixels beside an occlusion, on either side of it."""
-        across, down = occlusions(self.layers, self.model_slopes)
-        torn = np.zeros(self.layers.grid.shape, bool)
-        torn[:, :-1] |= across
-        torn[:, 1:] |= across
-        torn[:-1] |= down
-        torn[1:] |= down
-        return torn
+        return beside(*occlusions(self.layers, self.model_slopes))
 
     @cached_property
     def sound(self) -> Bools:

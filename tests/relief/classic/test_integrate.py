@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from relieffab.relief.classic.integrate import TWIST, integrate, nodes_of
-from relieffab.relief.model import pixel_slopes
+from relieffab.relief.classic.integrate import TWIST, integrate
+from relieffab.relief.model import nodes_of, pixel_slopes
 
 PITCH = 0.25
 

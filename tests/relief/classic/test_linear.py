@@ -1,7 +1,7 @@
 import numpy as np
 
-from relieffab.relief.classic.integrate import nodes_of
 from relieffab.relief.classic.linear import linear
+from relieffab.relief.model import nodes_of
 from relieffab.relief.targets import to_nodes
 
 

@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from relieffab.relief.classic.integrate import nodes_of
 from relieffab.relief.classic.methods import METHODS
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, nodes_of
 
 pytestmark = pytest.mark.parametrize("name", METHODS)
 
