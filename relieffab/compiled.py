@@ -3,6 +3,7 @@
 import functools
 import os
 import tempfile
+import types
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -42,9 +43,19 @@ import numba  # noqa: E402
 prange = numba.prange
 
 
+# Divisions by zero give infinities, as in NumPy: a test before each would keep
+# loops from using vectors.
+_USUAL: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+
+
 def kernel(function: Function) -> Function:
     """Compile a serial kernel; the result is cached on disk between runs."""
-    return numba.njit(cache=True, nogil=True)(function)  # type: ignore[no-any-return]
+    return numba.njit(**_USUAL)(function)  # type: ignore[no-any-return]
+
+
+def summing_kernel(function: Function) -> Function:
+    """Compile a serial kernel whose sums may be taken in any order, the same every time."""
+    return numba.njit(fastmath={"reassoc"}, **_USUAL)(function)  # type: ignore[no-any-return]
 
 
 def parallel_kernel(function: Function) -> Function:
@@ -53,7 +64,7 @@ def parallel_kernel(function: Function) -> Function:
     Rows must be independent of each other, so that the answer does not depend
     on the number of threads.
     """
-    return numba.njit(cache=True, nogil=True, parallel=True)(function)  # type: ignore[no-any-return]
+    return numba.njit(parallel=True, **_USUAL)(function)  # type: ignore[no-any-return]
 
 
 def adaptive_kernel(many: int) -> Callable[[Function], Function]:
@@ -68,7 +79,12 @@ def adaptive_kernel(many: int) -> Callable[[Function], Function]:
     """
 
     def compile_both(function: Function) -> Function:
-        alone, together = kernel(function), parallel_kernel(function)
+        # The cache on disk tells kernels apart by their names alone.
+        twin: Any = types.FunctionType(
+            function.__code__, function.__globals__, function.__name__, None, function.__closure__
+        )
+        twin.__qualname__ = f"{function.__qualname__}_together"
+        alone, together = kernel(function), parallel_kernel(twin)
 
         @functools.wraps(function)
         def choose(first: Any, *rest: Any) -> Any:

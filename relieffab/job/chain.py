@@ -50,13 +50,17 @@ def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
 
 def carving_of(job: Job) -> Carving:
     """Return how the relief is carved: nowhere narrower than the finest tip."""
+    tip = profiles.cutter(job.lines)
     return Carving(
         depth=job.depth,
         line_depth=job.line_depth,
         form_length=job.form_length,
         wall_angle=job.wall_angle,
-        fillet=profiles.cutter(job.lines).tip_radius,
+        fillet=tip.tip_radius,
         method=job.method,
+        carve=job.carve,
+        line_tip=tip.profile if job.line_profile == "cutter" else None,
+        reachable=job.reachable == "yes",
     )
 
 
@@ -152,6 +156,7 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
         "energy": solution and solution.energy,
         "iterations": solution and solution.iterations,
         "residual": solution and solution.residual,
+        "applications": solution and solution.applications,
         "converged": solution and solution.converged,
     }
 

@@ -31,6 +31,7 @@ from relieffab.relief.window import figure_size
 USUAL = (2.0, 5.0, 10.0)  # percent of the figure's height
 TABLE, SHEET = "compare.json", "compare.png"
 BESIDE = 4  # pixels shown around the figure
+FREE = 90.0  # degrees: drafted walls would make all reliefs alike where they stand
 
 Floats = NDArray[np.float64]
 Made = tuple[Relief, Report]
@@ -76,7 +77,7 @@ def _every(layers: Layers, job: Job, depths: Sequence[float], progress: Progress
         show = _share(progress, done, len(ways))
         show("compare", 0, 1)
         start = time.perf_counter()
-        way: Carving = replace(carving, depth=percent / 100 * height, method=name)
+        way: Carving = replace(carving, depth=percent / 100 * height, method=name, wall_angle=FREE)
         relief, solution = make_relief(layers, way, progress=show)
         seconds = time.perf_counter() - start
         yield (
@@ -140,7 +141,7 @@ def compare(
     Parameters
     ----------
     settings : mapping of Chosen
-        From `relieffab.job.load.gather`; its depth and method take no part.
+        From `relieffab.job.load.gather`; its depth, wall and method take no part.
     folder : Path, optional
         Where compare.json and compare.png go; nothing is written without it.
     depths : sequence of float
@@ -170,7 +171,9 @@ def compare(
         **{key: begun[key] for key in ("schema", "version")},
         "model": {**model, "notes": [*model["notes"], *([note] if note else [])]},
         "view": seen,
-        "settings": {k: v for k, v in begun["settings"].items() if k not in ("depth", "method")},
+        "settings": {
+            k: v for k, v in begun["settings"].items() if k not in ("depth", "method", "wall_angle")
+        },
         "figure_height_mm": figure_size(layers)[0],
         "cutter": chain.cutters_of(job)[2].name,
         "reliefs": [row for _, row in made],

@@ -7,8 +7,8 @@ from typing import Any
 from relieffab import units
 from relieffab.errors import InputError, suggest
 from relieffab.layers.lines.names import NAMES, USUAL, chosen
+from relieffab.relief.names import ALL, PARTS, SUNKEN, known, part
 from relieffab.relief.names import NAMES as METHODS
-from relieffab.relief.names import SUNKEN, known
 
 
 @dataclass(frozen=True)
@@ -107,6 +107,21 @@ def _method(text: Any) -> str:
     return known(str(text))
 
 
+def _part(text: Any) -> str:
+    return part(str(text))
+
+
+def _one_of(*words: str) -> Callable[[Any], str]:
+    def read(text: Any) -> str:
+        if text not in words:
+            raise InputError(
+                "there is no such choice", expected=" or ".join(words), found=str(text)
+            )
+        return str(text)
+
+    return read
+
+
 def _up(text: Any) -> str:
     if text not in ("y", "z"):
         raise InputError("the up axis is not known", expected="y or z", found=repr(text))
@@ -119,6 +134,7 @@ SETTINGS = (
     Setting("thickness", _positive, "12mm", "of the stock"),
     Setting("depth", _positive, "3mm", "of the relief at its deepest"),
     Setting("method", _method, SUNKEN, "of making the relief: " + ", ".join(METHODS)),
+    Setting("carve", _part, ALL, "what is carved: " + ", ".join(PARTS)),
     Setting("resolution", _resolution, "1024x768", "pixels across and down"),
     Setting("margin", _not_negative, "6mm", "flat border round the figure"),
     Setting("view", _view, "front", "front, back, left, right, top or bottom"),
@@ -135,7 +151,15 @@ SETTINGS = (
         "lines drawn, with commas; also " + ", ".join(n for n in NAMES if n not in USUAL),
     ),
     Setting("line_width", _positive, "0.6mm", "of a drawn line at full strength"),
-    Setting("line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth"),
+    Setting(
+        "line_depth", _not_negative, "", "of a drawn line; a sixteenth of the depth, at most 0.4mm"
+    ),
+    Setting(
+        "line_profile",
+        _one_of("rounded", "cutter"),
+        "rounded",
+        "of a drawn line: rounded, or the shape of the cutter for lines",
+    ),
     Setting("line_detail", _not_negative, "1.8mm", "finer forms give no lines"),
     Setting(
         "line_length",
@@ -144,13 +168,24 @@ SETTINGS = (
         "shorter lines are left out; half of it for contours, a third for creases",
     ),
     Setting("line_spread", _signed, "0mm", "dilates the line image, or erodes it if negative"),
-    Setting("wall_angle", units.angle, "80deg", "of the figure's edge against the face"),
+    Setting(
+        "wall_angle",
+        units.angle,
+        "80deg",
+        "of the figure's edge against the face; 90deg for a free one",
+    ),
     Setting("machine", str, "3018-prover", "see `relieffab machines`"),
     Setting("material", str, "softwood", "see `relieffab machines`"),
     Setting("rough", str, "flat-3.175", "roughing cutter"),
     Setting("finish", str, "tapered-ball-1", "finishing cutter"),
     Setting("lines", str, "tapered-ball-0.5", "cutter for lines and what finishing leaves"),
     Setting("stepover", _positive, "", "between finishing rows; from the scallop if not given"),
+    Setting(
+        "reachable",
+        _one_of("no", "yes"),
+        "no",
+        "yes: solve again without the forms that the finest cutter cannot reach",
+    ),
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
 )
 TABLE = {setting.name: setting for setting in SETTINGS}
@@ -168,6 +203,7 @@ class Job:
     thickness: float
     depth: float
     method: str
+    carve: str
     resolution: tuple[int, int]
     margin: float
     view: str
@@ -180,6 +216,7 @@ class Job:
     line_kinds: tuple[str, ...]
     line_width: float
     line_depth: float | None
+    line_profile: str
     line_detail: float
     line_length: float
     line_spread: float
@@ -190,6 +227,7 @@ class Job:
     finish: str
     lines: str
     stepover: float | None
+    reachable: str
     mesh_tolerance: float
 
     def __post_init__(self) -> None:

@@ -30,32 +30,23 @@ def slopes(layers: Layers) -> Floats:
     return p * layers.mask
 
 
-def compress(v: Floats, mask: Bools, *, exponent: float = 0.8, knee: float = 0.1) -> Floats:
-    """Attenuate large slopes more than small ones.
+def compress(v: Floats) -> Floats:
+    """Bound slopes: G(v) = v / sqrt(1 + |v|²), the tangential part of the normal.
 
-    G(v) = v (|v|/gamma)^(exponent - 1), with gamma the knee times the mean
-    slope; below gamma slopes are kept as they are (Wang 2011, Eq. 10, with the
-    modulus of Fattal 2002, Eq. 5).
+    Gentle slopes are kept, none comes out steeper than 1.  Multiplied by a small
+    gain these are the slopes of a low relief whose radiance goes with the model's
+    normals (1 - n_z apart), which a power of the slopes (Wang 2011, Eq. 10) is not.
 
     Parameters
     ----------
     v : (2, rows, cols) ndarray
         Slopes.
-    mask : (rows, cols) ndarray of bool
-        Where the mean is taken.
-    exponent : float
-        1 keeps slopes, 0 makes all of them gamma.
-    knee : float
 
     Returns
     -------
     (2, rows, cols) ndarray
     """
-    size = np.hypot(v[0], v[1])
-    gamma = knee * float(size[mask].mean())
-    if gamma == 0.0:
-        return v.copy()
-    return v * np.maximum(size / gamma, 1.0) ** (exponent - 1.0)
+    return v / np.sqrt(1.0 + v[0] ** 2 + v[1] ** 2)
 
 
 def occlusions(layers: Layers, v: Floats) -> tuple[Bools, Bools]:
@@ -102,41 +93,11 @@ def beside(across: Bools, down: Bools) -> Bools:
     return torn
 
 
-def steps(layers: Layers, across: Bools, down: Bools, most: float) -> Floats:
-    """Slopes that keep a small step where one part stands in front of another.
-
-    The jump between two pixels, cut to a few tenths of a millimetre, is shared
-    between them: the nearer part stays nearer, and takes no room from the forms
-    on either side (as Weyrich 2007, Sect. 4.1, asks for steps of a fixed size).
-
-    Parameters
-    ----------
-    layers : Layers
-    across, down : ndarray of bool
-        From `occlusions`.
-    most : float
-        Highest step, mm.
-
-    Returns
-    -------
-    (2, rows, cols) ndarray
-        0 where there is no jump.
-    """
-    out = np.zeros((2, *layers.grid.shape))
-    jump = np.clip(np.diff(layers.depth, axis=1), -most, most) * across / (2 * layers.pitch)
-    out[0, :, :-1] += jump
-    out[0, :, 1:] += jump
-    jump = np.clip(-np.diff(layers.depth, axis=0), -most, most) * down / (2 * layers.pitch)
-    out[1, :-1] += jump
-    out[1, 1:] += jump
-    return out
-
-
-def form(layers: Layers, span: tuple[float, float], *, evenness: float = 0.5) -> Floats:
+def form(layers: Layers, span: tuple[float, float], *, evenness: float = 0.75) -> Floats:
     """Compress the depth range monotonically, so that the depth order stays whole.
 
-    Half linear (Cignoni 1997), half equalised: a far limb does not take the
-    room of the forms in front of it.
+    A quarter linear (Cignoni 1997), three quarters equalised: a far limb does not
+    take the room of the forms in front of it.
 
     Parameters
     ----------

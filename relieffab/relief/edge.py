@@ -9,6 +9,8 @@ from scipy import ndimage
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
+SHARPEST = 8.0  # of the depth, that a wall falls in a pixel: all of it in two thirds of one
+
 
 def inward_distance(mask: Bools) -> Floats:
     """Distance of nodes to the figure's edge, positive inside, in pixels.
@@ -27,7 +29,7 @@ def inward_distance(mask: Bools) -> Floats:
     return (smooth[:-1, :-1] + smooth[:-1, 1:] + smooth[1:, :-1] + smooth[1:, 1:]) / 4
 
 
-def wall(mask: Bools, pitch: float, angle: float) -> Floats:
+def wall(mask: Bools, pitch: float, angle: float, depth: float) -> Floats:
     """Lowest heights that leave a drafted wall at the figure's edge.
 
     Parameters
@@ -36,7 +38,10 @@ def wall(mask: Bools, pitch: float, angle: float) -> Floats:
     pitch : float
         mm.
     angle : float
-        Of the wall against the panel's face, degrees.
+        Of the wall against the panel's face, degrees; 90 for a free one, as steep as
+        pixels can be.
+    depth : float
+        Of the relief, mm.
 
     Returns
     -------
@@ -46,4 +51,4 @@ def wall(mask: Bools, pitch: float, angle: float) -> Floats:
     """
     inside = np.maximum(inward_distance(mask), 0.0)
     eased = np.where(inside < 2.0, inside**2 / 4.0, inside - 1.0)
-    return -tan(radians(angle)) * pitch * eased
+    return -min(tan(radians(angle)) * pitch, SHARPEST * depth) * eased

@@ -16,7 +16,7 @@ from relieffab.relief.targets import Carving
 Floats = NDArray[np.float64]
 
 
-def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
+def finish(heights: Floats, layers: Layers, carving: Carving, edge: Floats) -> Relief:
     """Bring the highest point to the face, put the wall at the edge, fill what no tip reaches.
 
     Parameters
@@ -25,6 +25,8 @@ def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
         mm, 0 outside the figure.
     layers : Layers
     carving : Carving
+    edge : (rows + 1, cols + 1) ndarray
+        Lowest heights that leave a wall, from `edge.wall`, mm.
 
     Returns
     -------
@@ -32,7 +34,7 @@ def finish(heights: Floats, layers: Layers, carving: Carving) -> Relief:
     """
     figure = nodes_of(layers.mask)
     raised = np.where(figure, heights - heights[figure].max(), 0.0)
-    walled = np.maximum(raised, wall(layers.mask, layers.pitch, carving.wall_angle))
+    walled = np.maximum(raised, edge)
     filled = np.minimum(closing(walled, layers.pitch, ball(carving.fillet)), 0.0)
     return Relief(layers.grid, filled, layers.mask, carving.depth)
 
@@ -41,6 +43,7 @@ def make_relief(
     layers: Layers,
     carving: Carving | None = None,
     *,
+    start: Solution | None = None,
     tolerance: float = 1e-2,
     progress: Progress = silent,
 ) -> tuple[Relief, Solution | None]:
@@ -50,8 +53,10 @@ def make_relief(
     ----------
     layers : Layers
     carving : Carving, optional
+    start : Solution, optional
+        Of the same layers and about the same carving, to go on from.
     tolerance : float
-        On the projected gradient, relative to the first guess's.
+        On the projected gradient, relative to the flat panel's.
     progress : Progress
 
     Returns
@@ -62,7 +67,10 @@ def make_relief(
         None where a classic method made it.
     """
     carving = carving or Carving()
+    edge = wall(layers.mask, layers.pitch, carving.wall_angle, carving.depth)
     if carving.method != SUNKEN:
-        return finish(METHODS[carving.method](layers, carving.depth), layers, carving), None
-    heights, solution = solve_heights(layers, carving, tolerance=tolerance, progress=progress)
-    return finish(heights, layers, carving), solution
+        return finish(METHODS[carving.method](layers, carving.depth), layers, carving, edge), None
+    solution = solve_heights(
+        layers, carving, edge, start=start, tolerance=tolerance, progress=progress
+    )
+    return finish(solution.heights, layers, carving, edge), solution

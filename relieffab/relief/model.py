@@ -48,6 +48,26 @@ def nodes_of(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return touched
 
 
+def to_nodes(pixels: Floats, weight: Floats) -> Floats:
+    """Weighted means of the up to four pixels around each node.
+
+    Parameters
+    ----------
+    pixels, weight : (rows, cols) ndarray
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        0 where no pixel has weight.
+    """
+    total, mass = np.zeros((2, pixels.shape[0] + 1, pixels.shape[1] + 1))
+    for i in (slice(None, -1), slice(1, None)):
+        for j in (slice(None, -1), slice(1, None)):
+            total[i, j] += pixels * weight
+            mass[i, j] += weight
+    return np.divide(total, mass, out=np.zeros_like(total), where=mass > 0)
+
+
 @dataclass(frozen=True, eq=False)
 class Relief:
     """A sunken relief; arrays are read-only.

@@ -1,48 +1,86 @@
 """Layers at half the resolution, and heights carried back to twice as many nodes."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
+from relieffab.compiled import parallel_kernel, prange
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+RINGS = 2  # of nodes around the figure that cubics through its own reach
+
+
+@parallel_kernel
+def _halve(  # type: ignore[no-untyped-def]
+    depth,
+    normals,
+    mask,
+    shading,
+    lines,
+    half_depth,
+    half_normals,
+    half_mask,
+    half_shading,
+    half_lines,
+):
+    """Keep the nearest pixel of each four, and the mean of their ink."""
+    rows, cols = mask.shape
+    for i in prange(len(half_mask)):
+        for j in range(half_mask.shape[1]):
+            near, a, b, ink = -np.inf, 2 * i, 2 * j, 0.0
+            for y in range(2 * i, min(2 * i + 2, rows)):
+                for x in range(2 * j, min(2 * j + 2, cols)):
+                    ink += lines[y, x]
+                    if mask[y, x] and depth[y, x] > near:
+                        near, a, b = depth[y, x], y, x
+            half_lines[i, j] = ink / 4.0
+            half_mask[i, j] = mask[a, b]
+            half_depth[i, j] = depth[a, b]
+            for k in range(3):
+                half_normals[i, j, k] = normals[a, b, k]
+            for k in range(len(shading)):
+                half_shading[k, i, j] = shading[k, a, b]
 
 
 def halve(layers: Layers) -> Layers:
     """Layers at twice the pitch: of each four pixels the nearest stays."""
     rows, cols = -(-layers.grid.rows // 2), -(-layers.grid.cols // 2)
-
-    def blocks(array: NDArray[Any]) -> NDArray[Any]:
-        pad = [(0, 2 * rows - array.shape[0]), (0, 2 * cols - array.shape[1])]
-        padded = np.pad(array, pad + [(0, 0)] * (array.ndim - 2))
-        split = padded.reshape(rows, 2, cols, 2, *array.shape[2:])
-        return split.swapaxes(1, 2).reshape(rows, cols, 4, *array.shape[2:])
-
-    near = np.where(layers.mask, layers.depth, -np.inf)
-    nearest = blocks(near).argmax(axis=2)
-
-    def pick(array: NDArray[Any]) -> NDArray[Any]:
-        index = nearest.reshape(rows, cols, 1, *[1] * (array.ndim - 2))
-        return np.take_along_axis(blocks(array), index, axis=2)[:, :, 0]
-
-    normals = pick(layers.normals)
-    normals[~pick(layers.mask)] = (0.0, 0.0, 1.0)
-    return Layers(
-        grid=Grid(rows, cols, 2 * layers.pitch, layers.grid.origin),
-        depth=pick(layers.depth),
-        normals=normals,
-        mask=pick(layers.mask),
-        lights=layers.lights.copy(),
-        shading=np.stack([pick(image) for image in layers.shading]),
-        lines=blocks(layers.lines).mean(axis=2),
-    )
+    count = len(layers.lights)
+    depth, normals = np.empty((rows, cols)), np.empty((rows, cols, 3))
+    mask, shading = np.empty((rows, cols), bool), np.empty((count, rows, cols))
+    lines = np.empty((rows, cols))
+    _halve(
+        layers.depth, layers.normals, layers.mask, layers.shading, layers.lines,
+        depth, normals, mask, shading, lines,
+    )  # fmt: skip
+    grid = Grid(rows, cols, 2 * layers.pitch, layers.grid.origin)
+    lights = layers.lights.copy()
+    return Layers(grid, depth, normals, mask, lights, shading, lines, layers.strokes)
 
 
-def refine(coarse: Floats, figure: NDArray[np.bool_], shape: tuple[int, int]) -> Floats:
+@parallel_kernel
+def _spread(heights, known, out, reached):  # type: ignore[no-untyped-def]
+    """Give nodes beside known ones the mean of those."""
+    n, m = known.shape
+    for i in prange(n):
+        for j in range(m):
+            out[i, j], reached[i, j] = heights[i, j], known[i, j]
+            if known[i, j]:
+                continue
+            total, count = 0.0, 0
+            for y in range(max(i - 1, 0), min(i + 2, n)):
+                for x in range(max(j - 1, 0), min(j + 2, m)):
+                    if known[y, x]:
+                        total += heights[y, x]
+                        count += 1
+            if count:
+                out[i, j], reached[i, j] = total / count, True
+
+
+def refine(coarse: Floats, figure: Bools, shape: tuple[int, int]) -> Floats:
     """Carry heights to a lattice of half the pitch; nodes of one lie on the other's.
 
     Cubic, since the energy takes a kink for a cliff; what lies outside the figure
@@ -59,10 +97,13 @@ def refine(coarse: Floats, figure: NDArray[np.bool_], shape: tuple[int, int]) ->
     Returns
     -------
     ndarray
-        Continued smoothly beyond the figure.
+        Continued over two nodes beyond the figure, of no meaning further away.
     """
-    nearest = ndimage.distance_transform_edt(~figure, return_distances=False, return_indices=True)
-    heights = coarse[tuple(nearest)]
+    heights, known = coarse, figure
+    for _ in range(RINGS):
+        out, reached = np.empty_like(heights), np.empty_like(known)
+        _spread(heights, known, out, reached)
+        heights, known = out, reached
     for axis in (0, 1):
         heights = np.swapaxes(_halfway(np.swapaxes(heights, 0, axis)), 0, axis)
     return heights[: shape[0], : shape[1]]

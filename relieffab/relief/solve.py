@@ -1,200 +1,152 @@
-"""Layers to heights: projected Gauss-Newton steps, from coarse to fine."""
+"""Layers to heights: from coarse to fine, or from a relief that is almost the one asked for."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
-from relieffab.relief.edge import inward_distance, wall
-from relieffab.relief.energy import Bounds, Terms, linearise, operator
-from relieffab.relief.multigrid import build, solve
+from relieffab.relief.descend import Descent, descend
+from relieffab.relief.edge import wall
+from relieffab.relief.energy.terms import Terms
+from relieffab.relief.fit import fit
 from relieffab.relief.pyramid import halve, refine
+from relieffab.relief.reach import ball, closing
 from relieffab.relief.targets import Carving, Fit, terms_of
-from relieffab.relief.window import cropped
+from relieffab.relief.window import Window, cropped
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 
 COARSEST = 128  # rows or columns of pixels below which no coarser grid helps
-FITTING = 3  # rounds in which the form's span is fitted
-OUTSIDE = (2.0, 98.0)  # percentiles of the heights that have to lie within the bounds
-TOP = 0.05  # of the depth, kept above the upper of them
-LEAST_GAIN = 0.4  # slopes are not made gentler than this
-RIM = 1.5  # mm from the edge that do not count
+ROUGHLY = 3e-2  # tolerance on lattices that are only a start for finer ones
+SHALLOW = 1e-3  # of the depth: what a tip may leave of it and more is worth nothing
+GIVEN_UP = 4  # rounds of giving up what no tip reaches, at most
+STEPS = 40  # Gauss-Newton steps at most, on any lattice
 
 
-@dataclass(frozen=True)
-class Solution:
-    """How the solver came to its relief.
-
-    Parameters
-    ----------
-    energy : dict of float
-        'depth', 'light', 'line', 'form' and 'total', without unit.
-    residual : float
-        Norm of the projected gradient, relative to the first guess's.
-    iterations : int
-        Gauss-Newton steps on the finest lattice.
-    inner : int
-        Conjugate gradient iterations on the finest lattice.
-    converged : bool
-        Whether the residual came below the tolerance.
-    """
-
-    energy: dict[str, float]
-    residual: float
-    iterations: int
-    inner: int
-    converged: bool
-
-
-def projected_gradient(gradient: Floats, h: Floats, bounds: Bounds) -> Floats:
-    """Drop the components that only push against a bound."""
-    at_low = (h <= bounds[0]) & (gradient > 0)
-    at_high = (h >= bounds[1]) & (gradient < 0)
-    return np.where(at_low | at_high, 0.0, gradient)
-
-
-def descend(
-    terms: Terms, h: Floats, *, tolerance: float, most: int, report: Progress = silent
-) -> tuple[Floats, Solution]:
-    """Minimise the energy within the bounds by projected Newton steps.
-
-    Bounds that the gradient pushes against are held, a Gauss-Newton step is taken
-    on the rest and projected back (Bertsekas 1982); it is halved until the energy
-    falls.
+@dataclass(frozen=True, eq=False)
+class Solution(Descent):
+    """How the solver came to its relief, on the finest lattice.
 
     Parameters
     ----------
-    terms : Terms
-    h : (n, m) ndarray
-        First guess, mm, within the bounds.
-    tolerance : float
-        On the projected gradient, relative to the first guess's.
-    most : int
-        Steps at most.
-
-    Returns
-    -------
-    h : (n, m) ndarray
-    solution : Solution
+    fitted : Fit
+        How form and detail share the depth.
+    heights : (rows + 1, cols + 1) ndarray
+        mm; before anything was cut to the cutter and the wall.
     """
-    figure = terms.form_weight > 0
-    here = linearise(terms, h)
-    first = norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.bounds)))
-    inner = iteration = 0
-    while iteration < most and norm > tolerance * first and first > 0:
-        report("relief", iteration, most)
-        pull = projected_gradient(here.gradient, h, terms.bounds)
-        at_bound = (h <= terms.bounds[0]) | (h >= terms.bounds[1])
-        free = figure & ~(at_bound & (pull == 0))
-        levels = build(operator(terms, here), free)
-        forcing = min(0.1, max(0.3 * tolerance, 0.3 * norm / first))
-        step, used = solve(levels, -0.5 * pull, tolerance=forcing)
-        inner += used
-        size, there, new = 1.0, here, h
-        while size > 1e-3:
-            new = np.clip(h + size * step, *terms.bounds)
-            there = linearise(terms, new)
-            if there.value < here.value:
-                break
-            size /= 2
-        else:
-            break
-        h, here = new, there
-        norm = float(np.linalg.norm(projected_gradient(here.gradient, h, terms.bounds)))
-        iteration += 1
-    energy = {**here.parts, "total": here.value}
-    residual = norm / first if first > 0 else 0.0
-    return h, Solution(energy, residual, iteration, inner, residual <= tolerance)
+
+    fitted: Fit
+    heights: Floats
 
 
-def fit(layers: Layers, carving: Carving) -> Fit:
-    """Choose the form's span and the slopes' gain so that the relief fits its depth.
+def _lowest(edge: Floats, depth: float) -> Singles:
+    """Lower bound of the heights: none where the wall lies above the deepest anyway."""
+    deepest = np.nextafter(np.float32(-depth), np.float32(0.0))
+    return np.where(edge > -depth, np.float32(-np.inf), deepest)
 
-    Detail rises above the form and cuts below it, by how much only solving
-    tells: solved without bounds, slopes are made gentler where all is too tall,
-    and the span's ends moved by what sticks out or is left unused.  The rim does
-    not count: the wall covers it.
+
+def problem(
+    layers: Layers, carving: Carving, fitted: Fit, edge: Floats | None = None
+) -> tuple[Terms, Window]:
+    """Put the energy and its bounds together, on the figure's part of the grid.
 
     Parameters
     ----------
     layers : Layers
-        A coarse grid does.
     carving : Carving
+    fitted : Fit
+    edge : (rows + 1, cols + 1) ndarray, optional
+        Lowest heights that leave a wall at the figure's edge, mm; found if not given.
 
     Returns
     -------
-    Fit
-        Its span within the depth, and at least half of it.
+    terms : Terms
+    window : Window
+        Where its lattice lies.
     """
-    figure, _ = cropped(layers)
-    depth = carving.depth
-    far = inward_distance(figure.mask)
-    inner = far > min(RIM / figure.pitch, 0.5 * max(float(far.max()), 0.0))
-    low, high, gain = -0.9 * depth, -0.2 * depth, 1.0
-    for _ in range(FITTING):
-        terms = terms_of(figure, carving, Fit((low, high), gain), (-np.inf, np.inf))
-        heights, _ = descend(terms, terms.form, tolerance=1e-2, most=12)
-        counted = inner if inner.any() else terms.form_weight > 0
-        bottom, top = np.percentile(heights[counted], OUTSIDE)
-        gain = float(np.clip(gain * depth / max(top - bottom, 1e-9), LEAST_GAIN, 1.0))
-        high = float(np.clip(high - top - TOP * depth, -0.4 * depth, -TOP * depth))
-        low = float(np.clip(low - depth - bottom, -depth, high - 0.5 * depth))
-    return Fit((low, high), gain)
+    if edge is None:
+        edge = wall(layers.mask, layers.pitch, carving.wall_angle, carving.depth)
+    part, place = cropped(layers)
+    return terms_of(part, carving, fitted, (_lowest(place.take(edge), carving.depth), 0.0)), place
 
 
-def _lowest(layers: Layers, carving: Carving) -> Floats:
-    """Lower bound of the heights: none where the wall lies above the deepest anyway."""
-    edge = wall(layers.mask, layers.pitch, carving.wall_angle)
-    return np.where(edge > -carving.depth, -np.inf, -carving.depth)
+def _within(terms: Terms, guess: NDArray[np.floating]) -> Floats:
+    return np.where(terms.figure, np.clip(guess, *terms.bounds), 0.0)
+
+
+def _give_up(
+    terms: Terms, h: Floats, edge: Floats, carving: Carving, tolerance: float
+) -> tuple[Floats, Descent]:
+    """Solve again above what the finest tip leaves, until that is hardly anything.
+
+    Where the closing by the tip lies above the heights it becomes their lower bound.
+    """
+    low, high = terms.bounds
+    for _ in range(GIVEN_UP):
+        walled = np.where(terms.figure, np.maximum(h, edge), 0.0)
+        reached = closing(walled, terms.pitch, ball(carving.fillet))
+        short = reached - walled > SHALLOW * carving.depth
+        low = np.where(short, np.maximum(low, np.minimum(reached, high)), low).astype(np.float32)
+        terms = replace(terms, bounds=(low, high))
+        h, descent = descend(terms, _within(terms, h), tolerance=tolerance, most=STEPS)
+        if not short.any():
+            break
+    return h, descent
 
 
 def solve_heights(
     layers: Layers,
     carving: Carving,
+    edge: Floats,
     *,
+    start: Solution | None = None,
     tolerance: float = 1e-2,
     progress: Progress = silent,
-) -> tuple[Floats, Solution]:
-    """Minimise the energy from coarse to fine.
+) -> Solution:
+    """Minimise the energy, from coarse to fine.
 
     Parameters
     ----------
     layers : Layers
     carving : Carving
+    edge : (rows + 1, cols + 1) ndarray
+        Lowest heights that leave a wall at the figure's edge, mm.
+    start : Solution, optional
+        Of the same layers and about the same carving: its heights are the first
+        guess, its fit is kept, and no coarser lattice is visited.
     tolerance : float
-        On the projected gradient, relative to the first guess's.
+        On the projected gradient, relative to the flat panel's.
     progress : Progress
 
     Returns
     -------
-    heights : (rows + 1, cols + 1) ndarray
-        mm, within the bounds, 0 outside the figure; without the wall at its edge.
-    solution : Solution
+    Solution
+        Heights within the bounds, 0 outside the figure; without the wall at its edge.
     """
-    level = layers
-    figures = [(level, *cropped(level))]
-    while min(figures[-1][1].grid.shape) > COARSEST:
-        level = halve(level)
-        figures.append((level, *cropped(level)))
-    fitted = fit(level, carving)
-    heights, figure = np.zeros(0), np.zeros(0, bool)
-    for level, part, place in reversed(figures):
-        terms = terms_of(part, carving, fitted, (_lowest(part, carving), 0.0))
-        guess = terms.form
-        if heights.size:
-            guess = place.take(refine(heights, figure, level.grid.node_shape))
-        guess = np.clip(guess, *terms.bounds) * (terms.form_weight > 0)
+    lattices = [layers]
+    while start is None and min(cropped(lattices[-1])[0].grid.shape) > COARSEST:
+        lattices.append(halve(lattices[-1]))
+    fitted = start.fitted if start else fit(lattices[-1], carving)
+    above, figure = np.zeros(0), None
+    for level in reversed(lattices):
         finest = level is layers
-        solved, solution = descend(
+        terms, place = problem(level, carving, fitted, edge if finest else None)
+        guess, shape = _within(terms, terms.form), level.grid.node_shape
+        if start:
+            guess = _within(terms, place.take(start.heights))
+        elif figure is not None:
+            guess = _within(terms, terms.form + place.take(refine(above, figure, shape)))
+        solved, descent = descend(
             terms,
             guess,
-            tolerance=tolerance if finest else max(tolerance, 3e-2),
-            most=40,
+            tolerance=tolerance if finest else max(tolerance, ROUGHLY),
+            most=STEPS,
             report=progress if finest else silent,
         )
-        heights = place.put(solved, level.grid.node_shape)
-        figure = place.put(terms.form_weight > 0, level.grid.node_shape)
-    return heights, solution
+        above, figure = place.put(solved - terms.form, shape), place.put(terms.figure, shape)
+        if finest and carving.reachable:
+            solved, descent = _give_up(terms, solved, place.take(edge), carving, tolerance)
+    return Solution(**vars(descent), fitted=fitted, heights=place.put(solved, shape))

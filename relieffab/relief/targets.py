@@ -8,18 +8,20 @@ from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.layers.shading import lambert
-from relieffab.relief.compress import beside, compress, form, occlusions, slopes, steps
-from relieffab.relief.energy import Bounds, Terms
-from relieffab.relief.model import nodes_of, pixel_slopes
-from relieffab.relief.names import SUNKEN, known
+from relieffab.relief.compress import beside, compress, form, occlusions, slopes
+from relieffab.relief.energy.terms import Bounds, Terms, Weights
+from relieffab.relief.groove import inked, swept
+from relieffab.relief.model import nodes_of, pixel_slopes, to_nodes
+from relieffab.relief.names import ALL, LINES, SUNKEN, SURFACE, known, part
+from relieffab.relief.reach import Profile
 from relieffab.relief.window import figure_size
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-STEP = 1 / 16  # of the depth: what stays of a jump between two parts of the figure
-TWIST = 0.05  # share of the other terms' weight that a pixel's twist gets
+DEEPEST_LINE = 0.4  # mm, unless asked for: deeper ones take more from the forms than they show
+BRIDGE = 0.4  # least stencil across occlusions: parts that hang by nothing slip freely
+TWIST = 0.1  # share of the other terms' weight that a pixel's twist gets
 
 
 @dataclass(frozen=True)
@@ -32,12 +34,13 @@ class Carving:
         Of the relief at its deepest, mm.
     line_depth : float or None
         Of a line at full strength, below the surface around it, mm; a sixteenth
-        of the depth if None.
+        of the depth, at most 0.4 mm, if None.
     form_length : float or None
         Forms wider than this follow the depth order, finer ones the shading, mm;
         2 % of the figure's width or height, whichever is larger, if None.
     wall_angle : float
-        Of the wall at the figure's edge against the panel's face, degrees.
+        Of the wall at the figure's edge against the panel's face, degrees; 90 for a
+        free one.
     fillet : float
         Radius of a ball that reaches everywhere: what is narrower is filled, so
         that a cutter with that tip carves what is shown, mm.
@@ -45,6 +48,16 @@ class Carving:
     method : str
         'sunken', which all of the above serves, or a method of `relief.classic`,
         which takes the depth alone; wall and fillet are the same for all.
+    carve : str
+        'all', 'surface' for one without lines, or 'lines' for a drawing cut into the
+        level face, as deep as the relief unless `line_depth` says otherwise (Wang
+        2011, Fig. 6).
+    line_tip : callable, optional
+        Distance from a cutter's axis to its height above its lowest point, mm: lines
+        are grooves of that shape, deeper for principal ones, and not rounded strokes.
+    reachable : bool
+        Solve for what the ball reaches: forms that it cannot are given up, and their
+        surroundings find their best heights with what is left.
     """
 
     depth: float = 3.0
@@ -54,20 +67,24 @@ class Carving:
     fillet: float = 0.25
     depth_weight: float = 4.0
     light_weight: float = 1.0
-    line_weight: float = 4.0
+    line_weight: float = 10.0
     form_weight: float = 1.0
     method: str = SUNKEN
+    carve: str = ALL
+    line_tip: Profile | None = None
+    reachable: bool = False
 
     def __post_init__(self) -> None:
         known(self.method)
+        part(self.carve)
         if not 0 < self.depth < np.inf:
             raise InputError(
                 "the relief needs a depth", expected="more than 0 mm", found=f"{self.depth:g} mm"
             )
-        if not 0 < self.wall_angle < 90:
+        if not 0 < self.wall_angle <= 90:
             raise InputError(
                 "the wall cannot stand at that angle",
-                expected="more than 0, less than 90 degrees",
+                expected="more than 0, at most 90 degrees",
                 found=f"{self.wall_angle:g}",
             )
         for name in ("line_depth", "form_length", "fillet"):
@@ -106,47 +123,43 @@ class Fit:
     gain: float
 
 
-def to_nodes(pixels: Floats, weight: Floats) -> Floats:
-    """Weighted means of the up to four pixels around each node.
-
-    Parameters
-    ----------
-    pixels, weight : (rows, cols) ndarray
-
-    Returns
-    -------
-    (rows + 1, cols + 1) ndarray
-        0 where no pixel has weight.
-    """
-    total, mass = np.zeros((2, pixels.shape[0] + 1, pixels.shape[1] + 1))
-    for i in (slice(None, -1), slice(1, None)):
-        for j in (slice(None, -1), slice(1, None)):
-            total[i, j] += pixels * weight
-            mass[i, j] += weight
-    return np.divide(total, mass, out=np.zeros_like(total), where=mass > 0)
+def line_depth(carving: Carving) -> float:
+    """How deep a line at full strength is cut, mm."""
+    if carving.carve == SURFACE:
+        return 0.0
+    if carving.line_depth is not None:
+        return carving.line_depth
+    if carving.carve == LINES:
+        return carving.depth
+    return min(carving.depth / 16, DEEPEST_LINE)
 
 
-def groove(layers: Layers, line_depth: float) -> Floats:
-    """Profile of the lines on nodes, 0 beside them, negative in them, mm.
+def _grooves(layers: Layers, carving: Carving) -> tuple[Floats, Floats]:
+    """Profile of the lines on nodes, mm, and how much pixels belong to them, 0 to 1."""
+    deep = line_depth(carving)
+    if carving.line_tip is None:
+        cut, lined = inked(layers, deep), layers.lines > 0.02
+    else:
+        cut = swept(layers, deep, carving.line_tip)
+        lined = np.minimum(cut[:-1, :-1], cut[1:, 1:]) < 0
+    stencil = ndimage.gaussian_filter(lined.astype(float), 0.1 / layers.pitch)
+    return cut, stencil * (deep > 0)
 
-    Ink is rounded over a third of a millimetre, so that strokes have flanks a
-    cutter can follow; full strength reaches the line depth.
-    """
-    ink = ndimage.gaussian_filter(layers.lines, 0.12 / layers.pitch)
-    return -line_depth * to_nodes(np.minimum(1.25 * ink, 1.0), np.ones_like(ink))
 
-
-def _one_surface(mask: Bools, across: Bools, down: Bools) -> Bools:
-    """Nodes whose four pixels are in the figure with no occlusion between them."""
-    whole = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
-    four = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
-    torn = across[:-1] | across[1:] | down[:, :-1] | down[:, 1:]
-    whole[1:-1, 1:-1] = four & ~torn
+def _inner(sound: Bools) -> Bools:
+    """Nodes whose four pixels are all sound."""
+    whole = np.zeros((sound.shape[0] + 1, sound.shape[1] + 1), bool)
+    whole[1:-1, 1:-1] = sound[:-1, :-1] & sound[:-1, 1:] & sound[1:, :-1] & sound[1:, 1:]
     return whole
 
 
 def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> Terms:
     """Put the energy's terms together.
+
+    Occlusions part the figure: the depth term leaves them out, and the line term
+    asks for the form's own step where a line is drawn on them.  The light term
+    asks for the radiance of the slopes asked for.  The model's own would be out of
+    a low relief's reach, and pull every surface to its steepest.
 
     Parameters
     ----------
@@ -154,7 +167,7 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
         Its figure at least three pixels from the edge of its grid.
     carving : Carving
     fitted : Fit
-    bounds : tuple of ndarray or float
+    bounds : tuple of ndarray of float32 and float
         Lowest and highest height allowed, mm.
 
     Returns
@@ -163,41 +176,34 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
     """
     mask, pitch = layers.mask, layers.pitch
     form_length = carving.form_length or 0.02 * max(figure_size(layers))
-    line_depth = carving.depth / 16 if carving.line_depth is None else carving.line_depth
     slope = slopes(layers)
     across, down = occlusions(layers, slope)
     torn = beside(across, down)
-    stepped = steps(layers, across, down, STEP * carving.depth)
-    cut = groove(layers, line_depth)
-    cut_slope = pixel_slopes(cut, pitch) * mask
+    level = form(layers, fitted.span)
+    base = to_nodes(level, mask.astype(float))
+    cut, stencil = _grooves(layers, carving)
+    asked = np.where(torn, pixel_slopes(base, pitch), fitted.gain * compress(slope))
+    asked += pixel_slopes(cut, pitch) * mask
     count = int(mask.sum())
-    stencil = ndimage.gaussian_filter((layers.lines > 0.02).astype(float), 0.1 / pitch)
     figure = nodes_of(mask)
-    base = to_nodes(form(layers, fitted.span), mask.astype(float)) + cut
-    depth_weight = carving.depth_weight * mask / count
-    line_weight = carving.line_weight * stencil * mask / count
-    light_weight = carving.light_weight * form_length**2 * _one_surface(mask, across, down) / count
-    corners = light_weight[:-1, :-1] + light_weight[:-1, 1:]
-    corners += light_weight[1:, :-1] + light_weight[1:, 1:]
+    stiffness = carving.depth_weight + carving.light_weight * (form_length / pitch) ** 2
+    weights = Weights(
+        depth=carving.depth_weight / count,
+        line=carving.line_weight / count,
+        twist=TWIST * stiffness / count,
+        light=carving.light_weight * form_length**2 / count,
+        form=carving.form_weight / form_length**2 / count,
+    )
     return Terms(
         pitch=pitch,
         lights=layers.lights,
-        depth_weight=depth_weight,
-        line_weight=line_weight,
-        slope=np.where(torn, stepped, fitted.gain * compress(slope, mask)) + cut_slope,
-        light_weight=light_weight,
-        radiance=layers.shading + _tilted(layers, cut_slope),
-        twist_weight=TWIST * (depth_weight + line_weight + corners / (4 * pitch**2)),
-        form_weight=carving.form_weight * figure / form_length**2 / count,
-        form=base * figure,
+        weights=weights,
+        mask=mask & ~torn,
+        stencil=np.where(torn, np.maximum(stencil, BRIDGE), stencil * mask).astype(np.float32),
+        slope=asked.astype(np.float32),
+        whole=_inner(mask),
+        radiance=None,
+        figure=figure,
+        form=((base + cut) * figure).astype(np.float32),
         bounds=bounds,
     )
-
-
-def _tilted(layers: Layers, cut_slope: Floats) -> Floats:
-    """Change of the shading where lines tilt the surface, (k, rows, cols)."""
-    tilted = layers.normals.copy()
-    tilted[..., 0] -= cut_slope[0] * layers.normals[..., 2]
-    tilted[..., 1] -= cut_slope[1] * layers.normals[..., 2]
-    tilted /= np.linalg.norm(tilted, axis=2, keepdims=True)
-    return lambert(tilted, layers.lights) - lambert(layers.normals, layers.lights)

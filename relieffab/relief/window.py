@@ -30,12 +30,24 @@ class Window:
     cols: int
 
     def take(self, whole: NDArray[Any], *, nodes: bool = True) -> NDArray[Any]:
-        """Cut the window out, with zeros beyond the grid."""
+        """Cut the window out, with zeros beyond the grid; a view if it is all inside."""
         more = int(nodes)
+        if self.inside(whole.shape, more):
+            return whole[
+                self.top : self.top + self.rows + more, self.left : self.left + self.cols + more
+            ]
         out = np.zeros((self.rows + more, self.cols + more, *whole.shape[2:]), whole.dtype)
         mine, theirs = self._overlap(whole.shape, more)
         out[mine] = whole[theirs]
         return out
+
+    def inside(self, shape: tuple[int, ...], more: int) -> bool:
+        """Whether it lies within an array."""
+        return (
+            min(self.top, self.left) >= 0
+            and self.top + self.rows + more <= shape[0]
+            and self.left + self.cols + more <= shape[1]
+        )
 
     def put(self, part: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
         """Lay node values back into zeros of the whole grid's shape."""
@@ -65,21 +77,20 @@ def figure_size(layers: Layers) -> tuple[float, float]:
 
 def cropped(layers: Layers) -> tuple[Layers, Window]:
     """Cut out the figure with a border of background."""
-    rows, cols = np.nonzero(layers.mask)
-    top, left = int(rows.min()) - BORDER, int(cols.min()) - BORDER
-    window = Window(
-        top, left, int(rows.max()) + 1 + BORDER - top, int(cols.max()) + 1 + BORDER - left
-    )
-    mask = window.take(layers.mask, nodes=False)
+    rows, cols = (np.nonzero(layers.mask.any(axis=axis))[0] for axis in (1, 0))
+    top, left = int(rows[0]) - BORDER, int(cols[0]) - BORDER
+    window = Window(top, left, int(rows[-1]) + 1 + BORDER - top, int(cols[-1]) + 1 + BORDER - left)
     normals = window.take(layers.normals, nodes=False)
-    normals[~mask] = (0.0, 0.0, 1.0)
+    if not window.inside(layers.grid.shape, 0):
+        normals[~window.take(layers.mask, nodes=False)] = (0.0, 0.0, 1.0)
     figure = Layers(
         grid=Grid(window.rows, window.cols, layers.pitch, layers.grid.to_xy(top, left)),
         depth=window.take(layers.depth, nodes=False),
         normals=normals,
-        mask=mask,
+        mask=window.take(layers.mask, nodes=False),
         lights=layers.lights,
-        shading=np.stack([window.take(image, nodes=False) for image in layers.shading]),
+        shading=np.moveaxis(window.take(np.moveaxis(layers.shading, 0, 2), nodes=False), 2, 0),
         lines=window.take(layers.lines, nodes=False),
+        strokes=layers.strokes,
     )
     return figure, window

@@ -4,7 +4,7 @@ import pytest
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import default_lights
-from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes, steps
+from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes
 
 
 def plane_layers(p, q, step=0.0):
@@ -38,21 +38,16 @@ def test_slopes_stop_at_the_steepest():
 def test_compression_keeps_direction_and_order():
     rng = np.random.default_rng(0)
     v = rng.normal(size=(2, 9, 11)) * 3
-    mask = np.ones((9, 11), bool)
-    g = compress(v, mask)
+    g = compress(v)
     size, small = np.hypot(*v), np.hypot(*g)
     np.testing.assert_allclose(v[0] * g[1], v[1] * g[0], atol=1e-12)
     assert (np.diff(small.ravel()[size.ravel().argsort()]) > 0).all()
-    assert (small <= size + 1e-12).all()
-    gamma = 0.1 * size.mean()
-    np.testing.assert_allclose(small, np.minimum(size, gamma * (size / gamma) ** 0.8))
+    np.testing.assert_allclose(small, np.sin(np.arctan(size)))
 
 
-def test_nothing_blows_up_at_zero_slope():
-    zero = np.zeros((2, 4, 4))
-    assert (compress(zero, np.ones((4, 4), bool)) == 0).all()
-    zero[0, 0, 0] = 1.0
-    assert np.isfinite(compress(zero, np.ones((4, 4), bool))).all()
+def test_gentle_slopes_are_kept():
+    np.testing.assert_allclose(compress(np.full((2, 1, 1), 1e-3)), 1e-3, rtol=1e-5)
+    assert (compress(np.zeros((2, 4, 4))) == 0).all()
 
 
 @pytest.mark.parametrize(("p", "q"), [(0.0, 0.0), (2.0, -1.0), (6.0, 3.0)])
@@ -76,25 +71,3 @@ def test_form_keeps_the_depth_order_and_its_room():
     assert (np.diff(f.ravel()[order]) >= 0).all()
     assert f.min() == pytest.approx(-4)
     assert f.max() == pytest.approx(-1)
-
-
-def test_a_jump_leaves_a_small_step_of_the_right_sign():
-    layers = plane_layers(0.0, 0.0, step=5.0)
-    across, down = occlusions(layers, slopes(layers))
-    slope = steps(layers, across, down, 0.3)
-    # Climbing the two pixels beside the jump adds up to the step.
-    np.testing.assert_allclose(slope[0].sum(axis=1) * layers.pitch, 0.3)
-    assert (np.nonzero(slope[0, 2])[0] == [14, 15]).all()
-    assert (slope[1] == 0).all()
-
-
-def test_a_near_row_in_front_steps_up_towards_the_operator():
-    layers = plane_layers(0.0, 0.0)
-    depth = layers.depth.copy()
-    depth[10:] += 0.2
-    nearer = Layers(**{**vars(layers), "depth": depth})
-    down = np.zeros((19, 30), bool)
-    down[9] = True
-    slope = steps(nearer, np.zeros((20, 29), bool), down, 1.0)
-    # Y grows away from the operator, so the slope is negative; a low jump stays whole.
-    np.testing.assert_allclose(slope[1].sum(axis=0) * layers.pitch, -0.2)

@@ -19,7 +19,14 @@ def test_distance_to_a_discs_edge_is_smooth_and_right():
 
 
 def test_the_wall_has_its_angle():
-    w = wall(disc(30), 0.2, 80.0)
+    w = wall(disc(30), 0.2, 80.0, 3.0)
     assert (w[:9] == 0).all()
     slope = (w[40, 16] - w[40, 20]) / (4 * 0.2)
     assert np.degrees(np.arctan(slope)) == pytest.approx(80, abs=0.5)
+
+
+def test_a_free_wall_is_down_within_a_pixel():
+    w = wall(disc(30), 0.2, 90.0, 3.0)
+    away = inward_distance(disc(30))
+    assert (w[away >= 1.0] <= -3.0).all()
+    assert (w[away <= 0.0] == 0).all()

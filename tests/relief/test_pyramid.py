@@ -26,4 +26,4 @@ def test_what_lies_outside_the_figure_takes_no_part():
     figure = np.zeros((10, 10), bool)
     figure[3:7, 3:7] = True
     coarse = np.where(figure, -1.5, 99.0)
-    np.testing.assert_allclose(refine(coarse, figure, (19, 19)), -1.5)
+    np.testing.assert_allclose(refine(coarse, figure, (19, 19))[5:14, 5:14], -1.5)

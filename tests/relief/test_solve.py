@@ -4,17 +4,24 @@ import pytest
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
-from relieffab.relief.energy import linearise, operator
+from relieffab.relief.descend import descend
+from relieffab.relief.energy.couplings import levels
+from relieffab.relief.energy.linearise import linearise
+from relieffab.relief.fit import fit
 from relieffab.relief.make import make_relief
-from relieffab.relief.model import Relief
-from relieffab.relief.multigrid import build, solve
-from relieffab.relief.solve import descend, fit, projected_gradient
-from relieffab.relief.targets import Carving, Fit, terms_of, to_nodes
+from relieffab.relief.model import Relief, to_nodes
+from relieffab.relief.multigrid.conjugate import solve
+from relieffab.relief.targets import Carving, Fit, terms_of
 
 
 @pytest.fixture(scope="module")
 def carved(layers):
     return make_relief(layers, Carving(depth=1.5))
+
+
+def bounded(layers):
+    low = np.full(layers.grid.node_shape, -1.5, np.float32)
+    return terms_of(layers, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (low, 0.0))
 
 
 def shading_of(relief, lights):
@@ -56,20 +63,22 @@ def test_detail_is_kept_where_linear_compression_loses_it(carved, layers):
 
 
 def test_the_energy_is_at_its_minimum_within_the_bounds(layers):
-    terms = terms_of(layers, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-1.5, 0.0))
-    h, solution = descend(terms, np.clip(terms.form, -1.5, 0), tolerance=1e-4, most=40)
+    terms = bounded(layers)
+    h, solution = descend(
+        terms, np.clip(terms.form.astype(float), -1.5, 0), tolerance=1e-4, most=40
+    )
     assert solution.residual <= 1e-4
     here = linearise(terms, h).value
     rng = np.random.default_rng(0)
     for _ in range(5):
-        step = 1e-3 * rng.normal(size=h.shape) * (terms.form_weight > 0)
+        step = 1e-3 * rng.normal(size=h.shape) * (terms.figure)
         assert linearise(terms, np.clip(h + step, -1.5, 0)).value > here
 
 
 def test_another_first_guess_gives_the_same_relief(layers):
-    terms = terms_of(layers, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-1.5, 0.0))
-    figure = terms.form_weight > 0
-    guesses = np.clip(terms.form, -1.5, 0), np.where(figure, -0.7, 0.0)
+    terms = bounded(layers)
+    figure = terms.figure
+    guesses = np.clip(terms.form.astype(float), -1.5, 0), np.where(figure, -0.7, 0.0)
     a, b = (descend(terms, g, tolerance=1e-6, most=60)[0] for g in guesses)
     assert np.abs(a - b).max() < 0.01 * 1.5
 
@@ -135,19 +144,14 @@ def test_progress_is_told_and_can_cancel(layers):
         make_relief(layers, Carving(depth=1.5), progress=cancel)
 
 
-def test_gradients_against_bounds_are_dropped():
-    h = np.array([-2.0, -2.0, 0.0, 0.0, -1.0])
-    gradient = np.array([1.0, -1.0, 1.0, -1.0, 5.0])
-    np.testing.assert_array_equal(projected_gradient(gradient, h, (-2.0, 0.0)), [0, -1, 1, 0, 5])
-
-
 def test_the_fit_stays_within_the_depth_and_leaves_no_plateaus(layers):
     gains = []
     for depth in (0.5, 1.5, 4.0):
         carving = Carving(depth=depth, fillet=0.0)
         fitted = fit(layers, carving)
         low, high = fitted.span
-        assert -depth <= low <= high - 0.5 * depth < high < 0
+        assert 0.5 * depth <= high - low <= depth
+        assert low < -0.5 * depth < high
         gains.append(fitted.gain)
         relief, _ = make_relief(layers, carving)
         inner = relief.heights[1:-1, 1:-1][layers.mask[1:, 1:] & layers.mask[:-1, :-1]]
@@ -165,9 +169,35 @@ def test_iterations_do_not_grow_with_the_resolution_past_an_occlusion(layers, fi
         depth = plain.depth.copy()
         depth[:, plain.grid.cols // 2 :] += 4.0
         torn = Layers(**{**vars(plain), "depth": depth * plain.mask})
-        terms = terms_of(torn, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (-np.inf, np.inf))
-        here = linearise(terms, 0.3 * terms.form)
-        levels = build(operator(terms, here), terms.form_weight > 0)
-        counts.append(solve(levels, -here.gradient, tolerance=1e-5)[1])
-    assert max(counts) <= 14
-    assert counts[1] <= counts[0] + 2
+        low = np.full(plain.grid.node_shape, -np.inf, np.float32)
+        terms = terms_of(torn, Carving(depth=1.5), Fit((-1.4, -0.3), 1.0), (low, np.inf))
+        here = linearise(terms, np.zeros(low.shape))
+        _, count = solve(
+            lambda x, out, t=here.tangent, f=terms.figure: t.apply(x, f, out),
+            levels(here.tangent, terms.figure), -here.gradient, tolerance=1e-5,
+        )  # fmt: skip
+        counts.append(count)
+    assert max(counts) <= 9
+    assert counts[1] <= counts[0] + 1
+
+
+def test_a_solution_is_gone_on_from(layers):
+    _, before = make_relief(layers, Carving(depth=1.5), tolerance=1e-4)
+    changed = Carving(depth=1.5, light_weight=1.5)
+    warm, again = make_relief(layers, changed, start=before, tolerance=1e-5)
+    cold, anew = make_relief(layers, changed, tolerance=1e-5)
+    assert again.converged
+    assert again.fitted == before.fitted
+    assert again.energy["total"] == pytest.approx(anew.energy["total"], rel=0.02)
+    assert np.abs(warm.heights - cold.heights).max() < 0.05
+    _, same = make_relief(layers, changed, start=again, tolerance=1e-4)
+    assert same.iterations == 0
+
+
+def test_how_it_went_is_told(layers):
+    _, s = make_relief(layers, Carving(depth=1.5), tolerance=1e-5)
+    assert s.converged
+    assert s.residual <= 1e-5
+    assert set(s.energy) == {"depth", "light", "line", "form", "total"}
+    assert sum(v for k, v in s.energy.items() if k != "total") == pytest.approx(s.energy["total"])
+    assert 0 < s.iterations <= s.inner < s.applications <= 160

@@ -12,8 +12,7 @@ from scipy import ndimage
 
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import EVEN, extent, model_slopes, stretch
-from relieffab.relief.model import nodes_of
-from relieffab.relief.targets import to_nodes
+from relieffab.relief.model import nodes_of, to_nodes
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]

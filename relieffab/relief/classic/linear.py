@@ -5,8 +5,7 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.relief.classic.figure import stretch
-from relieffab.relief.model import nodes_of
-from relieffab.relief.targets import to_nodes
+from relieffab.relief.model import nodes_of, to_nodes
 
 Floats = NDArray[np.float64]
 

@@ -10,6 +10,7 @@ from relieffab.relief.classic.bilateral import bilateral
 from relieffab.relief.classic.gradient import gradient
 from relieffab.relief.classic.histogram import histogram
 from relieffab.relief.classic.linear import linear
+from relieffab.relief.classic.wang import wang
 from relieffab.relief.classic.weyrich import weyrich
 
 Method = Callable[[Layers, float], NDArray[np.float64]]
@@ -21,4 +22,5 @@ METHODS: dict[str, Method] = {
     "bilateral": bilateral,
     "histogram": histogram,
     "weyrich": weyrich,
+    "wang": wang,
 }

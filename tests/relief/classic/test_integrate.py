@@ -49,21 +49,21 @@ def test_the_least_squares_agree_with_a_dense_solution():
     mask[3:9, 3:11] = True
     mask[3:5, 3:6] = False
     asked, weight = rng.normal(size=(2, 12, 14)), rng.uniform(0.2, 1.0, (12, 14))
-    weight = np.round(weight * 1024) / 1024
     found = integrate(asked, weight, mask, PITCH, tolerance=1e-9)
     nodes = np.argwhere(nodes_of(mask))
     index = {tuple(node): k for k, node in enumerate(nodes)}
     rows, right = [], []
     for i, j in np.argwhere(mask):
         corners = [index[i, j], index[i, j + 1], index[i + 1, j], index[i + 1, j + 1]]
+        w = np.float32(weight[i, j])
         for signs, want, share in (
-            ((-1, 1, -1, 1), asked[0, i, j], 1.0),
-            ((1, 1, -1, -1), asked[1, i, j], 1.0),
+            ((-1, 1, -1, 1), asked[0, i, j], w),
+            ((1, 1, -1, -1), asked[1, i, j], w),
             ((1, -1, -1, 1), 0.0, TWIST),
         ):
             row = np.zeros(len(nodes))
             row[corners] = signs
-            root = np.sqrt(share * weight[i, j])
+            root = np.sqrt(share)
             rows.append(root * row / (2 * PITCH))
             right.append(root * want)
     dense = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)[0]

@@ -1,0 +1,1 @@
+"""The energy of a relief, its gradient, and its Gauss-Newton operator."""

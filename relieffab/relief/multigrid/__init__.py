@@ -1,0 +1,1 @@
+"""Conjugate gradients preconditioned by multigrid, for operators on a lattice of nodes."""
