@@ -16,7 +16,7 @@ from relieffab.relief.multigrid.cycle import FINEST
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-ROUGH = 0.1  # tolerance of a step's solution while nodes still come to the bounds and leave
+ROUGH = 0.5  # tolerance of a step's solution while nodes still come to the bounds and leave
 LEAST_STEP = 1e-3  # of a Gauss-Newton step, after which none is taken
 INNER = 1 + 2 * FINEST[0]  # applications of the operator that a conjugate gradient iteration takes
 

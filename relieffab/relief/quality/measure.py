@@ -1,9 +1,7 @@
-"""All measures of a relief in one table."""
+"""All measures of a relief together."""
 
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from math import isnan
-from typing import Any
 
 from relieffab.cutter import Cutter
 from relieffab.layers.model import Layers
@@ -85,32 +83,3 @@ def measure(relief: Relief, layers: Layers, cutter: Cutter) -> Quality:
         carve=carve(pair, cutter, lines),
         border=border(pair),
     )
-
-
-def table(qualities: Mapping[str, Quality]) -> str:
-    """Write the figures of several reliefs side by side.
-
-    Parameters
-    ----------
-    qualities : mapping of str to Quality
-        By the name that heads each column.
-
-    Returns
-    -------
-    str
-        A line for every figure, '-' where it has no meaning.
-    """
-    columns: list[dict[str, Any]] = [
-        {
-            f"{measure}.{name}": value
-            for measure, part in q.as_dict().items()
-            for name, value in part.items()
-        }
-        for q in qualities.values()
-    ]
-    width = max([10, *(len(name) for name in qualities)])
-    lines = ["".join([" " * 24, *(f"{name:>{width + 2}}" for name in qualities)])]
-    for key in columns[0] if columns else ():
-        cells = ("-" if c[key] is None else f"{c[key]:.4f}" for c in columns)
-        lines.append("".join([f"{key:24}", *(f"{cell:>{width + 2}}" for cell in cells)]))
-    return "\n".join(lines)

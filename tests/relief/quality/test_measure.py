@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from relieffab.relief.quality.measure import measure, table
+from relieffab.relief.quality.measure import measure
 
 
 @pytest.fixture
@@ -31,14 +31,6 @@ def test_all_of_it_is_plain_json_and_what_has_no_meaning_is_none(itself):
         for part in figures.values()
         for value in part.values()
     )
-
-
-def test_the_table_has_a_line_for_every_figure(itself):
-    lines = table({"one": itself, "a longer name": itself}).splitlines()
-    assert lines[0].split() == ["one", "a", "longer", "name"]
-    assert len(lines) == 1 + sum(len(part) for part in itself.as_dict().values())
-    assert lines[1].split() == ["relit.frontal_ncc", "1.0000", "1.0000"]
-    assert any(line.split() == ["visibility.median", "-", "-"] for line in lines)
 
 
 def test_a_real_surface_and_its_layers(layers, finest):
