@@ -1,19 +1,24 @@
 """Layers to Relief, by our own method or one of the classic ones."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
 from relieffab.relief.classic.methods import METHODS
 from relieffab.relief.edge import wall
 from relieffab.relief.model import Relief, nodes_of
-from relieffab.relief.names import SUNKEN
+from relieffab.relief.names import LINES, SUNKEN
 from relieffab.relief.reach import ball, closing
 from relieffab.relief.solve import Solution, solve_heights
 from relieffab.relief.targets import Carving
 
 Floats = NDArray[np.float64]
+
+BEYOND = 2.0  # mm from the outline that its groove may take when lines alone are carved
 
 
 def finish(heights: Floats, layers: Layers, carving: Carving, edge: Floats) -> Relief:
@@ -37,6 +42,12 @@ def finish(heights: Floats, layers: Layers, carving: Carving, edge: Floats) -> R
     walled = np.maximum(raised, edge)
     filled = np.minimum(closing(walled, layers.pitch, ball(carving.fillet)), 0.0)
     return Relief(layers.grid, filled, layers.mask, carving.depth)
+
+
+def drawing(layers: Layers) -> Layers:
+    """Widen the figure beyond its outline, so that the outline's groove is cut whole."""
+    away = ndimage.distance_transform_edt(~layers.mask) * layers.pitch
+    return replace(layers, mask=away <= BEYOND)
 
 
 def make_relief(
@@ -67,6 +78,8 @@ def make_relief(
         None where a classic method made it.
     """
     carving = carving or Carving()
+    if carving.carve == LINES:
+        layers = drawing(layers)
     edge = wall(layers.mask, layers.pitch, carving.wall_angle, carving.depth)
     if carving.method != SUNKEN:
         return finish(METHODS[carving.method](layers, carving.depth), layers, carving, edge), None

@@ -38,6 +38,18 @@ def test_lines_alone_leave_the_face_level(drawn):
     assert np.median(groove(relief, drawn)) > 0.7
 
 
+def test_an_outline_is_cut_on_both_sides(layers):
+    mask = layers.mask
+    edge = ndimage.binary_dilation(mask, iterations=2) ^ ndimage.binary_erosion(mask, iterations=2)
+    outlined = Layers(**{**vars(layers), "lines": edge.astype(float)})
+    relief, _ = make_relief(outlined, Carving(depth=1.0, carve="lines", fillet=0.0))
+    row = relief.heights[60]
+    left = np.nonzero(layers.mask[60])[0][0]
+    assert row[left - 1] < -0.3
+    assert row[left + 1] < -0.3
+    assert abs(row[left + 12]) < 0.02
+
+
 def test_the_surface_alone_is_that_of_a_model_without_lines(drawn, layers):
     carving = Carving(depth=1.5, carve="surface")
     bare, _ = make_relief(Layers(**{**vars(layers), "strokes": ()}), carving)
