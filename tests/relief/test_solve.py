@@ -177,8 +177,8 @@ def test_iterations_do_not_grow_with_the_resolution_past_an_occlusion(layers, fi
             levels(here.tangent, terms.figure), -here.gradient, tolerance=1e-5,
         )  # fmt: skip
         counts.append(count)
-    assert max(counts) <= 9
-    assert counts[1] <= counts[0] + 1
+    assert max(counts) <= 14
+    assert counts[1] <= counts[0] + 2
 
 
 def test_a_solution_is_gone_on_from(layers):

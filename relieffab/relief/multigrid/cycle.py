@@ -15,7 +15,7 @@ Bools = NDArray[np.bool_]
 COARSEST = 300  # free nodes below which a level is only smoothed
 # Degrees of the Chebyshev smoother, and down to which fraction it damps the spectrum's
 # top: on the finest lattice further, for the sake of what coarse ones cannot show.
-FINEST, OTHERS, COARSEST_SWEEPS = (4, 60.0), (2, 12.0), (16, 12.0)
+FINEST, OTHERS, COARSEST_SWEEPS = (2, 20.0), (2, 12.0), (16, 12.0)
 
 
 class Level(Protocol):
