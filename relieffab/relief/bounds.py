@@ -33,6 +33,11 @@ def _move(h, step, size, low, high, out):  # type: ignore[no-untyped-def]
             out[i, j] = min(max(h[i, j] + size * step[i, j], low[i, j]), high)
 
 
+def deepest(depth: float) -> np.float32:
+    """Lowest height of a relief so deep, in single precision, and not below it."""
+    return np.nextafter(np.float32(-depth), np.float32(0.0))
+
+
 def hold(
     gradient: Floats, h: Floats, bounds: tuple[NDArray[Any], float], figure: Bools
 ) -> tuple[Bools, Floats, float]:

@@ -48,6 +48,13 @@ def nodes_of(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return touched
 
 
+def inner_nodes(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Nodes whose four pixels are all in the mask, (rows + 1, cols + 1)."""
+    whole = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)
+    whole[1:-1, 1:-1] = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
+    return whole
+
+
 def to_nodes(pixels: Floats, weight: Floats) -> Floats:
     """Weighted means of the up to four pixels around each node.
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
+from relieffab.relief.bounds import deepest
 from relieffab.relief.descend import Descent, descend
 from relieffab.relief.edge import wall
 from relieffab.relief.energy.terms import Terms
@@ -44,8 +45,7 @@ class Solution(Descent):
 
 def _lowest(edge: Floats, depth: float) -> Singles:
     """Lower bound of the heights: none where the wall lies above the deepest anyway."""
-    deepest = np.nextafter(np.float32(-depth), np.float32(0.0))
-    return np.where(edge > -depth, np.float32(-np.inf), deepest)
+    return np.where(edge > -depth, np.float32(-np.inf), deepest(depth))
 
 
 def problem(

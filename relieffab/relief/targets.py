@@ -11,7 +11,7 @@ from relieffab.layers.model import Layers
 from relieffab.relief.compress import beside, compress, form, occlusions, slopes
 from relieffab.relief.energy.terms import Bounds, Terms, Weights
 from relieffab.relief.groove import inked, swept
-from relieffab.relief.model import nodes_of, pixel_slopes, to_nodes
+from relieffab.relief.model import inner_nodes, nodes_of, pixel_slopes, to_nodes
 from relieffab.relief.names import ALL, LINES, SUNKEN, SURFACE, known, part
 from relieffab.relief.reach import Profile
 from relieffab.relief.window import figure_size
@@ -146,13 +146,6 @@ def _grooves(layers: Layers, carving: Carving) -> tuple[Floats, Floats]:
     return cut, stencil * (deep > 0)
 
 
-def _inner(sound: Bools) -> Bools:
-    """Nodes whose four pixels are all sound."""
-    whole = np.zeros((sound.shape[0] + 1, sound.shape[1] + 1), bool)
-    whole[1:-1, 1:-1] = sound[:-1, :-1] & sound[:-1, 1:] & sound[1:, :-1] & sound[1:, 1:]
-    return whole
-
-
 def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> Terms:
     """Put the energy's terms together.
 
@@ -201,7 +194,7 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
         mask=mask & ~torn,
         stencil=np.where(torn, np.maximum(stencil, BRIDGE), stencil * mask).astype(np.float32),
         slope=asked.astype(np.float32),
-        whole=_inner(mask),
+        whole=inner_nodes(mask),
         radiance=None,
         figure=figure,
         form=((base + cut) * figure).astype(np.float32),

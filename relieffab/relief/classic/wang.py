@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
-from relieffab.relief.bounds import hold, move
+from relieffab.relief.bounds import deepest, hold, move
 from relieffab.relief.classic.figure import extent, model_slopes
 from relieffab.relief.classic.gradient import KNEE, attenuate
 from relieffab.relief.classic.linear import linear
 from relieffab.relief.descend import newton
 from relieffab.relief.energy.linearise import linearise
 from relieffab.relief.energy.terms import Terms, Weights
-from relieffab.relief.model import nodes_of
+from relieffab.relief.model import inner_nodes, nodes_of
 from relieffab.relief.window import cropped
 
 Floats = NDArray[np.float64]
@@ -35,11 +35,8 @@ CAREFUL = 1e-3  # tolerance of each round
 def _terms(figure: Layers, depth: float) -> Terms:
     slope, whole = model_slopes(figure)
     one = nodes_of(figure.mask)
-    four = np.zeros_like(one)
-    four[1:-1, 1:-1] = whole[:-1, :-1] & whole[:-1, 1:] & whole[1:, :-1] & whole[1:, 1:]
     count, pitch = int(figure.mask.sum()), figure.pitch
     drawn = figure.shading * (1.0 - figure.lines)
-    low = np.nextafter(np.float32(-depth), np.float32(0.0))
     return Terms(
         pitch=pitch,
         lights=figure.lights,
@@ -53,11 +50,11 @@ def _terms(figure: Layers, depth: float) -> Terms:
         mask=figure.mask,
         stencil=np.zeros(figure.grid.shape, np.float32),
         slope=attenuate(slope, whole, knee=KNEE, exponent=EXPONENT).astype(np.float32),
-        whole=four,
+        whole=inner_nodes(whole),
         radiance=drawn.astype(np.float32),
         figure=one,
         form=linear(figure, depth).astype(np.float32),
-        bounds=(np.full(one.shape, low), 0.0),
+        bounds=(np.full(one.shape, deepest(depth)), 0.0),
         lagged=True,
     )
 
