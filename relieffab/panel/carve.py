@@ -4,13 +4,13 @@ import manifold3d
 import numpy as np
 
 from relieffab.errors import InputError, RelieffabError
-from relieffab.grid import Grid
-from relieffab.layers.raster import rasterise
+from relieffab.panel.deviate import deviations
+from relieffab.panel.edges import edge_keys, has_repeats
 from relieffab.panel.model import Floats, Ints, Panel, Sinking, Surface
-from relieffab.panel.simplify import deviation, simplify
+from relieffab.panel.simplify import GROWN, distances, simplify
 from relieffab.panel.sinking import sink
 from relieffab.panel.space import CLEARANCE, clear_of_face, part_touching, solid_above
-from relieffab.panel.triangulate import edge_keys, has_repeats, triangulate
+from relieffab.panel.triangulate import triangulate
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
@@ -19,6 +19,8 @@ from relieffab.stock import Stock
 RESERVE = 0.02
 # Rounding of the modeller, mm: nearer to the face is the face.
 ROUNDING = 1e-7
+# Pixels from the grid's border where a panel's height is not measured.
+BORDER = 1e-6
 
 
 def checked(solid: manifold3d.Manifold, what: str) -> manifold3d.Manifold:
@@ -72,19 +74,19 @@ def is_watertight(faces: Ints) -> bool:
 
 
 def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
-    """Measure a panel against the relief at all inner nodes and pixel centres, mm.
+    """Measure a panel against the relief, at every point of its face and the cut's floor, mm.
 
-    Nodes on the grid's border may lie in a vertical side, where a panel has no
-    one height; `deviation` has measured the surface there.
+    On the grid's border there may be an upright wall, where a panel has no one height.
     """
     grid, h = relief.grid, relief.heights
-    centres = (h[:-1, :-1] + h[1:, 1:]) / 2
-    worst = np.abs(rasterise(vertices, faces, grid).depth - centres).max()
-    if min(grid.shape) > 1:
-        between = Grid(grid.rows - 1, grid.cols - 1, grid.pitch, grid.to_xy(0.5, 0.5))
-        nodes = rasterise(vertices, faces, between).depth
-        worst = max(worst, np.abs(nodes - h[1:-1, 1:-1]).max())
-    return float(worst)
+    col = (vertices[:, 0] - grid.origin[0]) / grid.pitch
+    row = (grid.origin[1] - vertices[:, 1]) / grid.pitch
+    places = np.stack([col, row, vertices[:, 2]], axis=1)
+    a, b, c = (places[faces[:, k], :2] for k in range(3))
+    u, v = b - a, c - a
+    # Rows run against Y: what faces up turns from rows to columns.
+    up = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0
+    return float(deviations(h, places, faces[up], margin=BORDER).max(initial=0.0))
 
 
 def _finish(solid: manifold3d.Manifold, relief: Relief, error: float) -> Panel:
@@ -105,12 +107,12 @@ def _surface(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Su
     """Triangulate and simplify what is below the face; and its largest error, mm."""
     reserve = RESERVE * tolerance
     bound = tolerance - 2 * reserve
-    surface = triangulate(sinking, bound / 2)
+    surface = triangulate(sinking, GROWN * bound)
     surface = simplify(surface, sinking, bound, progress=progress)
     surface = clear_of_face(surface, min(reserve, CLEARANCE))
     steepest = max(-float(sinking.heights.min()), CLEARANCE) / sinking.grid.pitch
     surface = part_touching(surface, min(reserve / steepest, CLEARANCE))
-    return surface, max(float(part.max()) for part in deviation(surface, sinking))
+    return surface, float(distances(surface, sinking).max(initial=0.0))
 
 
 def make_panel(
@@ -124,8 +126,7 @@ def make_panel(
         One with nothing below the face leaves the plain slab.
     stock : Stock
     tolerance : float, optional
-        Largest vertical distance between panel and relief at any node and any
-        pixel centre, mm.
+        Largest vertical distance between panel and relief at any point, mm.
     progress : Progress, optional
 
     Returns

@@ -21,26 +21,20 @@ class Sinking:
     grid : Grid
         The relief's own, or wider by a pixel at each side where the cut opens.
     heights : (rows + 1, cols + 1) ndarray
-        At nodes, mm; 0 is the panel's face.
-    near, far : (rows, cols) ndarray of bool
-        Pixels whose triangle has a corner below the face: the near left one
-        (nodes [i, j], [i + 1, j], [i + 1, j + 1]) and the far right one (nodes
-        [i, j], [i + 1, j + 1], [i, j + 1]).
+        At nodes, mm; 0 is the panel's face.  Each pixel is two triangles, and its
+        diagonal goes from node [i, j] to [i + 1, j + 1].
     """
 
     grid: Grid
     heights: Floats
-    near: NDArray[np.bool_]
-    far: NDArray[np.bool_]
 
     def __post_init__(self) -> None:
-        for name in ("heights", "near", "far"):
-            getattr(self, name).flags.writeable = False
+        self.heights.flags.writeable = False
 
     @property
     def empty(self) -> bool:
         """Whether nothing lies below the face."""
-        return not (self.near.any() or self.far.any())
+        return not (self.heights < 0).any()
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +59,10 @@ class Surface:
         self.vertices.flags.writeable = False
         self.faces.flags.writeable = False
 
+    def over_nodes(self) -> Floats:
+        """Vertices as column, row and height in mm, (v, 3)."""
+        return self.vertices * [1.0, -1.0, self.grid.pitch]  # type: ignore[no-any-return]
+
     def points(self) -> Floats:
         """Vertices on the panel, (v, 3), mm."""
         x, y = self.grid.to_xy(-self.vertices[:, 1], self.vertices[:, 0])
@@ -86,8 +84,7 @@ class Panel:
     volume_mm3 : float
         Enclosed, mm³.
     max_error_mm : float
-        Largest vertical distance to the relief, measured at every node and
-        every pixel centre, mm.
+        Largest vertical distance to the relief at any point, mm.
     """
 
     vertices: Floats

@@ -49,7 +49,7 @@ def check(relief: Relief, stock: Stock) -> None:
 
 
 def sink(relief: Relief, stock: Stock) -> Sinking:
-    """Find the triangles of a relief that lie below the face.
+    """Find what of a relief lies below the face.
 
     Where the relief is below the face on the grid's border, the cut ends in a
     vertical wall there; where the stock goes on for less than three quarters of
@@ -79,6 +79,4 @@ def sink(relief: Relief, stock: Stock) -> Sinking:
     wider = Grid(grid.rows + far + near, grid.cols + left + right, grid.pitch, origin)
     heights = np.pad(relief.heights, ((far, near), (left, right)), mode="edge")
     heights[heights > -FACE_GRAIN] = 0.0
-    below = heights < 0
-    diagonal = below[:-1, :-1] | below[1:, 1:]
-    return Sinking(wider, heights, diagonal | below[1:, :-1], diagonal | below[:-1, 1:])
+    return Sinking(wider, heights)

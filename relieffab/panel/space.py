@@ -11,8 +11,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from relieffab.panel.edges import edge_keys, outline
 from relieffab.panel.model import Floats, Ints, Surface
-from relieffab.panel.triangulate import edge_keys, outline
 
 # Never moved further than this, mm.
 CLEARANCE = 1e-4

@@ -6,15 +6,6 @@ from relieffab.panel.sinking import sink
 from relieffab.stock import Stock
 
 
-def test_only_triangles_with_a_corner_below_the_face(make_relief):
-    h = np.zeros((4, 4))
-    h[1, 1] = -1.0
-    found = sink(make_relief(h), Stock(5, 5, 4))
-    assert found.near.astype(int).tolist() == [[1, 1, 0], [0, 1, 0], [0, 0, 0]]
-    assert found.far.astype(int).tolist() == [[1, 0, 0], [1, 1, 0], [0, 0, 0]]
-    assert found.grid.shape == (3, 3)
-
-
 def test_less_than_a_nanometre_is_the_face(make_relief):
     h = np.full((3, 3), -1e-9)
     assert sink(make_relief(h), Stock(4, 4, 4)).empty

@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from relieffab.grid import Grid
+from relieffab.panel.edges import outline
 from relieffab.panel.sinking import sink
 from relieffab.panel.space import clear_of_face, part_touching, solid_above
-from relieffab.panel.triangulate import outline, triangulate
+from relieffab.panel.triangulate import triangulate
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
@@ -85,7 +86,9 @@ def test_a_peak_and_a_ridge_are_lowered():
     cleared = clear_of_face(surface, 1e-3)
     on_face = set(np.flatnonzero(cleared.vertices[:, 2] == 0).tolist())
     assert on_face <= set(outline(cleared.faces).ravel().tolist())
-    assert (np.sort(cleared.vertices[:, 2])[-4:] == [-1e-3, -1e-3, -1e-3, 0.0]).all()
+    top = cleared.vertices[cleared.vertices[:, 2] > -0.5]
+    assert (top[:, 2] == 0).sum() == 1
+    assert (top[:, 2] == -1e-3).sum() == len(top) - 1 >= 2
 
 
 def test_a_ridge_between_two_outlines_is_split():

@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from relieffab.grid import Grid
+from relieffab.panel.edges import outline
 from relieffab.panel.sinking import sink
-from relieffab.panel.triangulate import edge_keys, has_repeats, outline, triangulate
+from relieffab.panel.triangulate import triangulate
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
@@ -47,22 +48,19 @@ def test_without_a_bound_the_surface_is_the_relief(heights):
     arrays(float, (9, 9), elements=st.floats(-0.25, -0.125)),
     st.sampled_from([0.02, 0.05, 0.1]),
 )
-def test_no_point_is_further_than_twice_the_bound(heights, bound):
+def test_no_point_is_further_than_the_bound(heights, bound):
     relief, surface = surface_of(heights, bound)
     rng = np.random.default_rng(0)
     for x, y in 5 + 8 * rng.random((40, 2)):
         gap = height_by_search(surface, x, y) - relief.height_at(x, y)
-        assert abs(gap) <= 2 * bound + 1e-9
+        assert abs(gap) <= bound + 1e-9
 
 
 def test_a_flat_floor_needs_few_triangles():
     h = np.zeros((49, 49))
     h[16:33, 16:33] = -1.0
     _, surface = surface_of(h)
-    # The floor is one block, its fan reached by the 64 nodes around it; the wall
-    # has 2 triangles at each of its 68 pixels but for two corners, which have one each.
-    wall = 2 * 4 * 16 + 2 * 1 + 2 * 2
-    assert len(surface.faces) == 64 + wall
+    assert len(surface.faces) < 100
 
 
 def test_a_plane_is_two_triangles():
@@ -75,11 +73,3 @@ def test_the_outline_lies_on_the_face(bumpy):
     surface = triangulate(sink(bumpy, STOCK), 0.01)
     rim = surface.vertices[outline(surface.faces).ravel()]
     assert (rim[:, 2] == 0).all()
-
-
-def test_repeats_and_open_edges_are_found():
-    faces = np.array([[0, 1, 2], [2, 1, 3]])
-    assert sorted(map(tuple, outline(faces).tolist())) == [(0, 1), (1, 3), (2, 0), (3, 2)]
-    assert not has_repeats(edge_keys(faces))
-    assert has_repeats(edge_keys(np.array([[0, 1, 2], [0, 1, 3]])))
-    assert outline(np.empty((0, 3), np.int64)).shape == (0, 2)
