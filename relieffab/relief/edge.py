@@ -29,6 +29,11 @@ def inward_distance(mask: Bools) -> Floats:
     return (smooth[:-1, :-1] + smooth[:-1, 1:] + smooth[1:, :-1] + smooth[1:, 1:]) / 4
 
 
+def steepness(pitch: float, angle: float, depth: float) -> float:
+    """Slope of a wall at an angle in degrees, at most what pixels can show."""
+    return min(tan(radians(angle)), SHARPEST * depth / pitch)
+
+
 def wall(mask: Bools, pitch: float, angle: float, depth: float) -> Floats:
     """Lowest heights that leave a drafted wall at the figure's edge.
 
@@ -51,4 +56,4 @@ def wall(mask: Bools, pitch: float, angle: float, depth: float) -> Floats:
     """
     inside = np.maximum(inward_distance(mask), 0.0)
     eased = np.where(inside < 2.0, inside**2 / 4.0, inside - 1.0)
-    return -min(tan(radians(angle)) * pitch, SHARPEST * depth) * eased
+    return -steepness(pitch, angle, depth) * pitch * eased

@@ -10,9 +10,9 @@ from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
 from relieffab.relief.classic.methods import METHODS
 from relieffab.relief.edge import wall
+from relieffab.relief.foot import carved
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.names import LINES, SUNKEN
-from relieffab.relief.reach import ball, closing
 from relieffab.relief.solve import Solution, solve_heights
 from relieffab.relief.targets import Carving
 
@@ -38,10 +38,9 @@ def finish(heights: Floats, layers: Layers, carving: Carving, edge: Floats) -> R
     Relief
     """
     figure = nodes_of(layers.mask)
-    raised = np.where(figure, heights - heights[figure].max(), 0.0)
-    walled = np.maximum(raised, edge)
-    filled = np.minimum(closing(walled, layers.pitch, ball(carving.fillet)), 0.0)
-    return Relief(layers.grid, filled, layers.mask, carving.depth)
+    raised = heights - heights[figure].max()
+    left = carved(raised, figure, edge, layers.pitch, carving)
+    return Relief(layers.grid, left, layers.mask, carving.depth)
 
 
 def drawing(layers: Layers) -> Layers:

@@ -12,8 +12,8 @@ from relieffab.relief.descend import Descent, descend
 from relieffab.relief.edge import wall
 from relieffab.relief.energy.terms import Terms
 from relieffab.relief.fit import fit
+from relieffab.relief.foot import carved
 from relieffab.relief.pyramid import halve, refine
-from relieffab.relief.reach import ball, closing
 from relieffab.relief.targets import Carving, Fit, terms_of
 from relieffab.relief.window import Window, cropped
 
@@ -82,13 +82,12 @@ def _give_up(
 ) -> tuple[Floats, Descent]:
     """Solve again above what the finest tip leaves, until that is hardly anything.
 
-    Where the closing by the tip lies above the heights it becomes their lower bound.
+    Where what the tip leaves lies above the heights it becomes their lower bound.
     """
     low, high = terms.bounds
     for _ in range(GIVEN_UP):
-        walled = np.where(terms.figure, np.maximum(h, edge), 0.0)
-        reached = closing(walled, terms.pitch, ball(carving.fillet))
-        short = reached - walled > SHALLOW * carving.depth
+        reached = carved(h, terms.figure, edge, terms.pitch, carving)
+        short = reached - np.maximum(h, edge) > SHALLOW * carving.depth
         low = np.where(short, np.maximum(low, np.minimum(reached, high)), low).astype(np.float32)
         terms = replace(terms, bounds=(low, high))
         h, descent = descend(terms, _within(terms, h), tolerance=tolerance, most=STEPS)
