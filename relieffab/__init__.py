@@ -33,6 +33,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "panel.carve": ["make_panel"],
         "panel.export": ["write_3mf", "write_stl"],
         "panel.model": ["Panel"],
+        "panel.tiles": ["Tile", "split"],
         "picture": ["panel_picture"],
         "relief.model": ["Relief"],
         "relief.make": ["make_relief"],

@@ -78,6 +78,9 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
             f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
             f"within {panel['max_error_mm']:.3f} mm"
         )
+        for tile in panel.get("tiles", []):
+            size = " x ".join(f"{side:.1f}" for side in tile["size_mm"])
+            print(f"part     {folder / tile['file']}  {size} mm")
     _programs(report, folder)
     if "picture" in report:
         picture = report["picture"]

@@ -11,6 +11,7 @@ import numpy as np
 from relieffab import profiles
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
+from relieffab.job import parts
 from relieffab.job.settings import Job
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.svg import strokes_to_svg
@@ -74,6 +75,7 @@ def check(job: Job) -> None:
     """
     carving_of(job)
     profiles.material(job.material)
+    parts.check(job)
     cutters = cutters_of(job)
     check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
     if job.stepover is not None:
@@ -172,7 +174,7 @@ def write_relief(relief: Relief, folder: Path) -> str:
 def write_panel(
     relief: Relief, job: Job, folder: Path, progress: Progress = silent
 ) -> tuple[Panel, Part]:
-    """Carve the solid and write it; the part is report.json's `panel`."""
+    """Carve the solid and write it, in parts too; the part is report.json's `panel`."""
     panel = make_panel(relief, stock_of(job), tolerance=job.mesh_tolerance, progress=progress)
     write_stl(panel, folder / "panel.stl")
     write_3mf(panel, folder / "panel.3mf", name="relief panel")
@@ -182,6 +184,7 @@ def write_panel(
         "watertight": panel.watertight,
         "volume_mm3": panel.volume_mm3,
         "max_error_mm": panel.max_error_mm,
+        **parts.write(panel, "panel", job, folder),
     }
 
 

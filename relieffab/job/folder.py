@@ -11,10 +11,13 @@ from relieffab.errors import InputError
 
 REPORT = "report.json"
 
-# What each stage leaves, in their order.
+# What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
-PANEL = ("panel.stl", "panel.3mf", "stock.step")
+PANEL = (
+    *("panel.stl", "panel.3mf", "stock.step"),
+    *("panel-[A-Z][1-9].stl", "panel-[A-Z][1-9][0-9].stl"),
+)
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
 ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, "report.html")
 
@@ -56,7 +59,8 @@ def finished_together(
     ----------
     folder : Path
     stale : sequence of str
-        Files that no longer belong to the job unless they are made again.
+        Files, or patterns of them, that no longer belong to the job unless they
+        are made again.
     last : str
         The report's name.
     """
@@ -65,8 +69,8 @@ def finished_together(
     scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=home))
     try:
         yield scratch
-        for name in (last, *stale):
-            (folder / name).unlink(missing_ok=True)
+        for path in [path for name in (last, *stale) for path in folder.glob(name)]:
+            path.unlink(missing_ok=True)
         for source in sorted(scratch.rglob("*"), key=lambda path: (path.name == last, path)):
             target = folder / source.relative_to(scratch)
             if source.is_dir():

@@ -68,7 +68,7 @@ def _size(text: Any) -> tuple[float, ...]:
     values = units.lengths(str(text))
     if len(values) != 2:
         raise InputError(
-            "the size is not a panel's", expected="width x height, as 120x90mm", found=str(text)
+            "the size is not two lengths", expected="width x height, as 120x90mm", found=str(text)
         )
     if not all(0 < value < LONGEST for value in values):
         raise InputError(
@@ -187,6 +187,8 @@ SETTINGS = (
         "yes: solve again without the forms that the finest cutter cannot reach",
     ),
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
+    Setting("bed", _size, "", "of a printer, X x Y: a larger panel comes in parts, too"),
+    Setting("clearance", _not_negative, "0.2mm", "between the tongues and notches of parts"),
 )
 TABLE = {setting.name: setting for setting in SETTINGS}
 
@@ -229,6 +231,8 @@ class Job:
     stepover: float | None
     reachable: str
     mesh_tolerance: float
+    bed: tuple[float, float] | None
+    clearance: float
 
     def __post_init__(self) -> None:
         if self.depth >= self.thickness:

@@ -134,6 +134,27 @@ def test_a_new_relief_leaves_no_old_programs_behind(made, model, tmp_path):
     assert (folder / "mine.txt").read_text() == "mine"
 
 
+def test_a_bed_gives_parts_and_a_larger_one_takes_them_away(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    (folder / "panel-mine.stl").write_text("mine")
+    assert run(["panel", str(folder), "--bed", "30x40mm", "--clearance", "0.1mm"]) == 0
+    assert "panel-A2.stl" in capsys.readouterr().out
+    panel = json.loads((folder / "report.json").read_text())["panel"]
+    assert [tile["file"] for tile in panel["tiles"]] == ["panel-A1.stl", "panel-A2.stl"]
+    assert [tile["place_mm"] for tile in panel["tiles"]] == [[0.0, 0.0], [20.0, 0.0]]
+    for tile in panel["tiles"]:
+        solid = trimesh.load_mesh(folder / tile["file"])
+        assert solid.is_volume
+        assert solid.volume == pytest.approx(tile["volume_mm3"], rel=1e-6)
+    assert run(["panel", str(folder), "--bed", "40x30mm"]) == 0
+    assert json.loads((folder / "report.json").read_text())["panel"]["tiles"] == []
+    assert [p.name for p in folder.glob("panel-*")] == ["panel-mine.stl"]
+    assert run(["panel", str(folder), "--bed", "20x30mm"]) == 2
+    assert "too small for their tongues" in capsys.readouterr().err
+    assert (folder / "panel.stl").is_file()
+
+
 def test_verify_believes_neither_report_nor_profiles(made, tmp_path, monkeypatch, capsys):
     folder = tmp_path / "job"
     shutil.copytree(made, folder)
@@ -254,6 +275,10 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--line-length", "-1mm"], "0 or more"),
         (["--line-spread", "wide"], "not a length"),
         (["--method", "lineer"], "did you mean linear"),
+        (["--bed", "220mm"], "width x height"),
+        (["--bed", "20x30mm"], "too small for their tongues"),
+        (["--bed", "30x30mm", "--thickness", "3mm"], "too thin for tongues"),
+        (["--bed", "30x30mm", "--clearance", "2mm"], "clearance"),
     ],
 )
 def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):

@@ -1,0 +1,41 @@
+"""Between a panel's arrays and the solid modeller."""
+
+import manifold3d
+import numpy as np
+
+from relieffab.panel.carve import checked
+from relieffab.panel.model import Floats, Ints, Panel
+
+
+def manifold_of(panel: Panel, what: str) -> manifold3d.Manifold:
+    """Hand a panel to the modeller.
+
+    Parameters
+    ----------
+    panel : Panel
+    what : str
+        As a message would name it.
+
+    Raises
+    ------
+    RelieffabError
+        If it is not a solid.
+    """
+    # Copies: the modeller takes no read-only arrays.
+    mesh = manifold3d.Mesh64(np.array(panel.vertices, np.float64), np.array(panel.faces, np.uint64))
+    return checked(manifold3d.Manifold(mesh), what)
+
+
+def arrays_of(solid: manifold3d.Manifold) -> tuple[Floats, Ints]:
+    """Take a solid back: vertices (v, 3), mm, and faces (f, 3)."""
+    mesh = solid.to_mesh64()
+    vertices = np.array(mesh.vert_properties[:, :3], np.float64)
+    return vertices, np.array(mesh.tri_verts, np.int64)
+
+
+def lowest_facing_up(panel: Panel) -> float:
+    """Find the Z of the lowest corner of what can be seen from above, mm."""
+    corners = panel.vertices[panel.faces]
+    u, v = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+    up = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
+    return float(corners[up, :, 2].min())
