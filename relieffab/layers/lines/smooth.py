@@ -5,12 +5,14 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from relieffab.errors import InputError
+from relieffab.layers.lines.aggregation import coarsen, cycle
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.integer]
+Complex = NDArray[np.complexfloating]
 
-MOST_STEPS = 2000
-"""Conjugate gradients on real scans take under 100."""
+MOST_STEPS = 200
+"""Conjugate gradients on real scans take under 30."""
 ACCURACY = 1e-3
 """Of the displacement, relative."""
 
@@ -98,28 +100,32 @@ def _solve(matrix: sparse.csr_matrix, mass: Floats, right: Floats) -> NDArray[np
     """Solve (mass + i matrix) x = right for all columns at once.
 
     Conjugate gradients without conjugation (van der Vorst and Melissen, 1990),
-    for the system is complex and symmetric; scaled by its diagonal.  Sums avoid
-    the threaded BLAS, whose rounding depends on the number of threads.
+    for the system is complex and symmetric.  They are preconditioned by mass +
+    matrix: (1 + iq)/(1 + q) lies on an arc from 1 to i, off 0 by 0.7 at least,
+    whatever the triangles.  Sums avoid the threaded BLAS, whose rounding depends
+    on the number of threads.
     """
-    diagonal = (mass + 1j * matrix.diagonal())[:, None]
-    weight = 1 / np.abs(diagonal)
-    x = np.zeros(right.shape, np.complex128)
+    # In single precision only ratios may be extreme, not the sizes.
+    unit = mass.max(initial=0.0)
+    levels = coarsen((matrix / unit + sparse.diags(mass / unit)).tocsr())
+    weight = 1 / np.hypot(mass, matrix.diagonal())
+    x, towards = np.zeros((2, *right.shape), np.complex128)
     residual = right.astype(np.complex128)
-    towards = residual / diagonal
-    energy = _sums(residual, towards)
+    energy = np.ones(right.shape[1], np.complex128)
     goal = ACCURACY**2 * _squares(residual, weight)
     for _ in range(MOST_STEPS):
         if (_squares(residual, weight) <= goal).all():
             return x
-        spread = (matrix @ towards.view(np.float64)).view(np.complex128)
-        image = mass[:, None] * towards + 1j * spread
+        parts = cycle(levels, residual.view(np.float64).astype(np.float32))
+        scaled = parts.view(np.complex64)
+        before, energy = energy, _sums(residual, scaled)
+        towards *= _ratio(energy, before)
+        towards += scaled
+        image = mass[:, None] * towards
+        image += 1j * (matrix @ towards.view(np.float64)).view(np.complex128)
         length = _ratio(energy, _sums(towards, image))
         x += length * towards
         residual -= length * image
-        scaled = residual / diagonal
-        new = _sums(residual, scaled)
-        towards = scaled + _ratio(new, energy) * towards
-        energy = new
     raise InputError(
         "the mesh cannot be smoothed for its lines",
         expected=f"a solution within {MOST_STEPS} steps",
@@ -128,14 +134,13 @@ def _solve(matrix: sparse.csr_matrix, mass: Floats, right: Floats) -> NDArray[np
     )
 
 
-def _sums(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _sums(a: NDArray[np.complex128], b: Complex) -> NDArray[np.complex128]:
     return np.einsum("vk,vk->k", a, b)
 
 
 def _squares(a: NDArray[np.complex128], weight: Floats) -> Floats:
-    return np.einsum("vk,vk->k", weight * a.real, a.real) + np.einsum(
-        "vk,vk->k", weight * a.imag, a.imag
-    )
+    parts = a.view(np.float64)
+    return np.einsum("vk,vk,v->k", parts, parts, weight).reshape(-1, 2).sum(axis=1)
 
 
 def _ratio(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> NDArray[np.complex128]:
