@@ -31,7 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "layers.view": ["View", "guess_up", "named_view"],
         "machine": ["Machine", "Material"],
         "panel.carve": ["make_panel"],
-        "panel.export": ["write_3mf", "write_stl"],
+        "panel.export": ["write_3mf", "write_panel", "write_stl"],
         "panel.model": ["Panel"],
         "picture": ["panel_picture"],
         "relief.model": ["Relief"],

@@ -14,11 +14,11 @@ from relieffab.job.report import read_report
 from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
-PANEL_SETTINGS = ("mesh_tolerance",)
+PANEL_SETTINGS = ("mesh_tolerance", "formats")
 TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (
-    "depth", "method", "thickness", "mesh_tolerance",
+    "depth", "method", "thickness", *PANEL_SETTINGS,
     *(name for name in TOOLPATH_SETTINGS if name != "lines"),
 )  # fmt: skip
 

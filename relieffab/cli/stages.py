@@ -89,7 +89,7 @@ def _from_model(
 
 
 def panel(folder: Folder, /, *, flags: PanelFlags = None, as_json: Json = False) -> int:
-    """Add the solid panel to a relief's folder: STL, 3MF, STEP of the stock."""
+    """Add the solid panel to a relief's folder: its mesh, and STEP of the stock."""
     from relieffab.job import run
 
     settings = settings_in(folder, PANEL_SETTINGS, flags)

@@ -8,13 +8,14 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from relieffab.errors import InputError
+from relieffab.panel.formats import FORMATS
 
 REPORT = "report.json"
 
 # What each stage leaves, in their order.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
-PANEL = ("panel.stl", "panel.3mf", "stock.step")
+PANEL = (*(f"panel.{kind}" for kind in FORMATS), "stock.step")
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
 ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, "report.html")
 

@@ -70,6 +70,17 @@ def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[
     return layers, relief
 
 
+def _carve(relief: Relief, job: Job, report: Report, folder: Path, progress: Progress) -> None:
+    """Carve the panel, take its picture, and write both: the picture goes into the 3MF, too."""
+    with _timed(report, "panel", progress):
+        panel = chain.carve_panel(relief, job, progress)
+    with _timed(report, "picture", progress):
+        small, report["picture"] = chain.write_picture(relief, panel, folder)
+    with _timed(report, "export", progress):
+        name = report["model"]["name"]
+        report["panel"] = chain.write_panel(panel, job, folder, name=name, picture=small)
+
+
 def _prove(
     paths: Sequence[Toolpath],
     relief: Relief,
@@ -135,13 +146,10 @@ def make(
         chain.stock_file(job, scratch) as report["stock"],
     ):
         layers, relief = _solve(job, report, scratch, progress)
-        with _timed(report, "panel", progress):
-            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
+        _carve(relief, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, layers.strokes, job, progress)
         _prove(paths, relief, job, report, scratch, progress)
-        with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, panel, scratch)
     return report
 
 
@@ -166,7 +174,7 @@ def make_relief(
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         _, relief = _solve(job_of(settings), report, scratch, progress)
         with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, None, scratch)
+            _, report["picture"] = chain.write_picture(relief, None, scratch)
     return report
 
 
@@ -180,10 +188,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
         _reported(report, scratch),
         chain.stock_file(job, scratch) as report["stock"],
     ):
-        with _timed(report, "panel", progress):
-            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
-        with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, panel, scratch)
+        _carve(relief, job, report, scratch, progress)
     return report
 
 

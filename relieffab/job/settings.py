@@ -7,6 +7,7 @@ from typing import Any
 from relieffab import units
 from relieffab.errors import InputError, suggest
 from relieffab.layers.lines.names import NAMES, USUAL, chosen
+from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN, known, part
 from relieffab.relief.names import NAMES as METHODS
 
@@ -62,6 +63,10 @@ def _signed(text: Any) -> float:
 
 def _kinds(text: Any) -> tuple[str, ...]:
     return chosen(str(text).replace(",", " ").split())
+
+
+def _formats(text: Any) -> tuple[str, ...]:
+    return formats.chosen(str(text).lower().replace(",", " ").split())
 
 
 def _size(text: Any) -> tuple[float, ...]:
@@ -187,6 +192,12 @@ SETTINGS = (
         "yes: solve again without the forms that the finest cutter cannot reach",
     ),
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
+    Setting(
+        "formats",
+        _formats,
+        ",".join(formats.USUAL),
+        "files of the panel, with commas: " + ", ".join(formats.FORMATS),
+    ),
 )
 TABLE = {setting.name: setting for setting in SETTINGS}
 
@@ -229,6 +240,7 @@ class Job:
     stepover: float | None
     reachable: str
     mesh_tolerance: float
+    formats: tuple[str, ...]
 
     def __post_init__(self) -> None:
         if self.depth >= self.thickness:

@@ -5,10 +5,12 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 
 from relieffab.cli.main import run
 
@@ -110,6 +112,21 @@ def test_stage_by_stage_gives_the_same_programs(made, model, tmp_path, capsys):
         # Heights and strokes come back from files in single precision and to 0.001 mm.
         assert one["cut_mm"] == pytest.approx(other["cut_mm"], rel=0.01)
         assert np.allclose(one["bounds_mm"], other["bounds_mm"], atol=0.02)
+
+
+def test_a_panel_comes_in_the_formats_asked_for(made, tmp_path):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["panel", str(folder), "--formats", "GLB, 3mf"]) == 0
+    assert sorted(p.name for p in folder.glob("panel.*")) == ["panel.3mf", "panel.glb"]
+    report = json.loads((folder / "report.json").read_text())
+    assert report["panel"]["files"] == ["panel.3mf", "panel.glb"]
+    with zipfile.ZipFile(folder / "panel.3mf") as package:
+        picture = Image.open(package.open("Metadata/thumbnail.png"))
+        assert picture.width == min(512, Image.open(folder / "preview.png").width)
+    assert list(trimesh.load_scene(folder / "panel.glb").geometry) == ["relief of ball.obj"]
+    assert run(["panel", str(folder), "--formats", "stp"]) == 2
+    assert (folder / "panel.glb").is_file()
 
 
 def test_other_tools_give_other_programs_and_nothing_else(made, tmp_path, capsys):
@@ -254,6 +271,8 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--line-length", "-1mm"], "0 or more"),
         (["--line-spread", "wide"], "not a length"),
         (["--method", "lineer"], "did you mean linear"),
+        (["--formats", "stl,gbl"], "did you mean glb"),
+        (["--formats", ","], "needs a format"),
     ],
 )
 def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):
