@@ -36,6 +36,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "picture": ["panel_picture"],
         "relief.model": ["Relief"],
         "relief.make": ["make_relief"],
+        "relief.png": ["to_png"],
         "relief.store": ["read_relief", "to_tiff"],
         "relief.targets": ["Carving"],
         "stock": ["Stock"],

@@ -26,7 +26,8 @@ from relieffab.picture import panel_picture, png8, png16, smaller
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief
-from relieffab.relief.store import grey, to_tiff
+from relieffab.relief.png import to_png
+from relieffab.relief.store import to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
@@ -166,7 +167,7 @@ def write_relief(relief: Relief, folder: Path) -> str:
     """Write relief.tiff and relief.png; return the former's SHA-256."""
     packed = to_tiff(relief)
     (folder / "relief.tiff").write_bytes(packed)
-    (folder / "relief.png").write_bytes(png16(grey(relief)))
+    (folder / "relief.png").write_bytes(to_png(relief))
     return hashlib.sha256(packed).hexdigest()
 
 
