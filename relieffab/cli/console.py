@@ -78,6 +78,10 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
             f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
             f"within {panel['max_error_mm']:.3f} mm"
         )
+    if "template" in report:
+        part = report["template"]
+        pages = f"{part['pages']} page{'s' * (part['pages'] != 1)} of {part['paper']}"
+        print(f"template {folder / part['file']}  {pages}; template.svg and contours.svg beside it")
     _programs(report, folder)
     if "picture" in report:
         picture = report["picture"]

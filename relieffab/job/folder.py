@@ -17,7 +17,8 @@ LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
 PANEL = (*(f"panel.{kind}" for kind in FORMATS), "stock.step")
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
-ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, "report.html")
+TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
+ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, *TEMPLATE, "report.html")
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:

@@ -10,6 +10,7 @@ from relieffab.layers.lines.names import NAMES, USUAL, chosen
 from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN, known, part
 from relieffab.relief.names import NAMES as METHODS
+from relieffab.template.pages import PAPERS
 
 
 @dataclass(frozen=True)
@@ -133,6 +134,10 @@ def _up(text: Any) -> str:
     return str(text)
 
 
+def _paper(text: Any) -> str:
+    return _one_of(*PAPERS)(str(text).lower())
+
+
 SETTINGS = (
     Setting("model", str, "", "model file: STL, OBJ, PLY, OFF, GLB or 3MF"),
     Setting("size", _size, "120x90mm", "panel, width x height"),
@@ -198,6 +203,7 @@ SETTINGS = (
         ",".join(formats.USUAL),
         "files of the panel, with commas: " + ", ".join(formats.FORMATS),
     ),
+    Setting("paper", _paper, "a4", "of the template's pages: " + ", ".join(PAPERS)),
 )
 TABLE = {setting.name: setting for setting in SETTINGS}
 
@@ -241,6 +247,7 @@ class Job:
     reachable: str
     mesh_tolerance: float
     formats: tuple[str, ...]
+    paper: str
 
     def __post_init__(self) -> None:
         if self.depth >= self.thickness:

@@ -129,6 +129,24 @@ def test_a_panel_comes_in_the_formats_asked_for(made, tmp_path):
     assert (folder / "panel.glb").is_file()
 
 
+def test_a_template_is_added_and_goes_with_a_new_relief(made, model, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["template", str(folder), "--paper", "letter"]) == 0
+    assert "template.pdf  1 page of letter" in capsys.readouterr().out
+    report = json.loads((folder / "report.json").read_text())
+    assert report["template"]["files"] == ["template.svg", "contours.svg", "template.pdf"]
+    assert all((folder / file).is_file() for file in report["template"]["files"])
+    assert (folder / "panel.stl").is_file()
+    assert run(["template", str(folder), "--paper", "a5"]) == 2
+    assert "a4 or letter" in capsys.readouterr().err
+    (folder / "layers" / "lines.svg").unlink()
+    assert run(["template", str(folder)]) == 2
+    assert (folder / "template.pdf").is_file()
+    assert run(["relief", str(model), *SMALL, "-o", str(folder), "--overwrite"]) == 0
+    assert not list(folder.glob("template.*")) + list(folder.glob("contours.*"))
+
+
 def test_other_tools_give_other_programs_and_nothing_else(made, tmp_path, capsys):
     folder = tmp_path / "job"
     shutil.copytree(made, folder)
@@ -308,7 +326,7 @@ def test_unknown_commands_and_flags_are_usage_errors(capsys):
 
 
 def test_a_folder_without_a_job_is_told(tmp_path, capsys):
-    for command in ("panel", "toolpath", "verify"):
+    for command in ("panel", "template", "toolpath", "verify"):
         assert run([command, str(tmp_path)]) == 2
         assert "holds no job" in capsys.readouterr().err
 
