@@ -81,6 +81,10 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
         for tile in panel.get("tiles", []):
             size = " x ".join(f"{side:.1f}" for side in tile["size_mm"])
             print(f"part     {folder / tile['file']}  {size} mm")
+    if "template" in report:
+        part = report["template"]
+        pages = f"{part['pages']} page{'s' * (part['pages'] != 1)} of {part['paper']}"
+        print(f"template {folder / part['file']}  {pages}; template.svg and contours.svg beside it")
     _programs(report, folder)
     if "picture" in report:
         picture = report["picture"]

@@ -28,6 +28,7 @@ for command in (
     stages.layers,
     stages.relief,
     stages.panel,
+    stages.template,
     stages.toolpath,
     stages.verify,
     comparison.compare,

@@ -14,11 +14,12 @@ from relieffab.job.report import read_report
 from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
-PANEL_SETTINGS = ("mesh_tolerance", "bed", "clearance")
+PANEL_SETTINGS = ("mesh_tolerance", "formats", "bed", "clearance")
 TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
+TEMPLATE_SETTINGS = ("paper",)
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (
-    "depth", "method", "thickness", *PANEL_SETTINGS,
+    "depth", "method", "thickness", *PANEL_SETTINGS, *TEMPLATE_SETTINGS,
     *(name for name in TOOLPATH_SETTINGS if name != "lines"),
 )  # fmt: skip
 
@@ -37,15 +38,17 @@ def _flag(setting: Setting) -> tuple[str, Any, Any]:
     return setting.name, hint, field(default=None)
 
 
-# The model is the command's argument, not a flag.
-Options = _flags("Options", [name for name in TABLE if name != "model"])
+# The model is the command's argument, not a flag; no job leaves a template of its own accord.
+Options = _flags("Options", [n for n in TABLE if n not in ("model", *TEMPLATE_SETTINGS)])
 PanelOptions = _flags("PanelOptions", PANEL_SETTINGS)
 ToolpathOptions = _flags("ToolpathOptions", TOOLPATH_SETTINGS)
+TemplateOptions = _flags("TemplateOptions", TEMPLATE_SETTINGS)
 CompareOptions = _flags("CompareOptions", [n for n in TABLE if n not in ("model", *_NOT_COMPARED)])
 
 Flags = Annotated[Options | None, Parameter(name="*")]  # type: ignore[valid-type]
 PanelFlags = Annotated[PanelOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 ToolpathFlags = Annotated[ToolpathOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
+TemplateFlags = Annotated[TemplateOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 CompareFlags = Annotated[CompareOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
 Output = Annotated[Path, Parameter(name=["--output", "-o"], help="folder for the files")]

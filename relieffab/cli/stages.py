@@ -1,4 +1,4 @@
-"""make, layers, relief, panel, toolpath, verify: a job, whole or stage by stage."""
+"""make, layers, relief, panel, template, toolpath, verify: a job, whole or stage by stage."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -8,6 +8,7 @@ from cyclopts import Parameter
 from relieffab.cli import console
 from relieffab.cli.options import (
     PANEL_SETTINGS,
+    TEMPLATE_SETTINGS,
     TOOLPATH_SETTINGS,
     Flags,
     Json,
@@ -16,6 +17,7 @@ from relieffab.cli.options import (
     PanelFlags,
     ShowConfig,
     Source,
+    TemplateFlags,
     ToolpathFlags,
     model_settings,
     settings_in,
@@ -89,12 +91,23 @@ def _from_model(
 
 
 def panel(folder: Folder, /, *, flags: PanelFlags = None, as_json: Json = False) -> int:
-    """Add the solid panel to a relief's folder: STL, 3MF, STEP of the stock."""
+    """Add the solid panel to a relief's folder: its mesh, and STEP of the stock."""
     from relieffab.job import run
 
     settings = settings_in(folder, PANEL_SETTINGS, flags)
     with console.progress_bar() as progress:
         report = run.add_panel(settings, folder, progress=progress)
+    console.result(report, folder, as_json=as_json)
+    return 0
+
+
+def template(folder: Folder, /, *, flags: TemplateFlags = None, as_json: Json = False) -> int:
+    """Add a template at 1:1 to a relief's folder, to carve it by hand: SVG and PDF pages."""
+    from relieffab.job import run
+
+    settings = settings_in(folder, TEMPLATE_SETTINGS, flags)
+    with console.progress_bar() as progress:
+        report = run.add_template(settings, folder, progress=progress)
     console.result(report, folder, as_json=as_json)
     return 0
 

@@ -19,15 +19,16 @@ from relieffab.layers.make import layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place
+from relieffab.panel import export
 from relieffab.panel.carve import make_panel
-from relieffab.panel.export import write_3mf, write_stl
 from relieffab.panel.model import Panel
 from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
-from relieffab.picture import panel_picture, png8, png16
+from relieffab.picture import panel_picture, png8, png16, smaller
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief
-from relieffab.relief.store import grey, to_tiff
+from relieffab.relief.png import to_png
+from relieffab.relief.store import to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
@@ -37,6 +38,7 @@ from relieffab.toolpath.plan import Settings, plan
 Part = dict[str, Any]
 
 SCARAB_UP = "y"  # of the model carved where no file is named
+THUMBNAIL = 512  # pixels wide
 
 
 def stock_of(job: Job) -> Stock:
@@ -167,19 +169,34 @@ def write_relief(relief: Relief, folder: Path) -> str:
     """Write relief.tiff and relief.png; return the former's SHA-256."""
     packed = to_tiff(relief)
     (folder / "relief.tiff").write_bytes(packed)
-    (folder / "relief.png").write_bytes(png16(grey(relief)))
+    (folder / "relief.png").write_bytes(to_png(relief))
     return hashlib.sha256(packed).hexdigest()
 
 
-def write_panel(
-    relief: Relief, job: Job, folder: Path, progress: Progress = silent
-) -> tuple[Panel, Part]:
-    """Carve the solid and write it, in parts too; the part is report.json's `panel`."""
-    panel = make_panel(relief, stock_of(job), tolerance=job.mesh_tolerance, progress=progress)
-    write_stl(panel, folder / "panel.stl")
-    write_3mf(panel, folder / "panel.3mf", name="relief panel")
-    return panel, {
-        "file": "panel.stl",
+def carve_panel(relief: Relief, job: Job, progress: Progress = silent) -> Panel:
+    """Carve the solid."""
+    return make_panel(relief, stock_of(job), tolerance=job.mesh_tolerance, progress=progress)
+
+
+def write_panel(panel: Panel, job: Job, folder: Path, *, name: str, picture: bytes) -> Part:
+    """Write the solid in the job's formats; the part is report.json's `panel`.
+
+    Parameters
+    ----------
+    panel : Panel
+    job : Job
+    folder : Path
+    name : str
+        Of the model, for formats that name their object.
+    picture : bytes
+        A PNG file, for formats that carry one.
+    """
+    files = [f"panel.{kind}" for kind in job.formats]
+    for file in files:
+        export.write_panel(panel, folder / file, name=f"relief of {name}", picture=picture)
+    return {
+        "file": files[0],
+        "files": files,
         "triangles": len(panel.faces),
         "watertight": panel.watertight,
         "volume_mm3": panel.volume_mm3,
@@ -220,8 +237,8 @@ def plan_paths(
     )
 
 
-def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> Part:
-    """Write preview.png; the part says how it was made."""
+def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> tuple[bytes, Part]:
+    """Write preview.png; return it small, and how it was made."""
     image, method = panel_picture(relief, panel)
     (folder / "preview.png").write_bytes(png8(image))
-    return {"file": "preview.png", "method": method}
+    return png8(smaller(image, THUMBNAIL)), {"file": "preview.png", "method": method}

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from relieffab.errors import InputError
+from relieffab.panel.formats import FORMATS
 
 REPORT = "report.json"
 
@@ -15,11 +16,13 @@ REPORT = "report.json"
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
 PANEL = (
-    *("panel.stl", "panel.3mf", "stock.step"),
+    *(f"panel.{kind}" for kind in FORMATS),
+    "stock.step",
     *("panel-[A-Z][1-9].stl", "panel-[A-Z][1-9][0-9].stl"),
 )
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
-ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, "report.html")
+TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
+ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, *TEMPLATE, "report.html")
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:

@@ -23,6 +23,7 @@ KEYS = (
     "relief",
     "panel",
     "stock",
+    "template",
     "machine",
     "material",
     "slab",

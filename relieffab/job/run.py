@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import chain, programs
-from relieffab.job.folder import ALL, PANEL, PROGRAMS, check_folder, finished_together
+from relieffab.job import chain, drawn, programs
+from relieffab.job.folder import ALL, PANEL, PROGRAMS, TEMPLATE, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of
-from relieffab.layers.lines.svg import strokes_from_svg
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
@@ -68,6 +67,17 @@ def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[
         report["relief"]["sha256"] = chain.write_relief(relief, folder)
     report["relief"]["seconds"] = report["timings"]["relief"]
     return layers, relief
+
+
+def _carve(relief: Relief, job: Job, report: Report, folder: Path, progress: Progress) -> None:
+    """Carve the panel, take its picture, and write both: the picture goes into the 3MF, too."""
+    with _timed(report, "panel", progress):
+        panel = chain.carve_panel(relief, job, progress)
+    with _timed(report, "picture", progress):
+        small, report["picture"] = chain.write_picture(relief, panel, folder)
+    with _timed(report, "export", progress):
+        name = report["model"]["name"]
+        report["panel"] = chain.write_panel(panel, job, folder, name=name, picture=small)
 
 
 def _prove(
@@ -135,13 +145,10 @@ def make(
         chain.stock_file(job, scratch) as report["stock"],
     ):
         layers, relief = _solve(job, report, scratch, progress)
-        with _timed(report, "panel", progress):
-            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
+        _carve(relief, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, layers.strokes, job, progress)
         _prove(paths, relief, job, report, scratch, progress)
-        with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, panel, scratch)
     return report
 
 
@@ -166,7 +173,7 @@ def make_relief(
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         _, relief = _solve(job_of(settings), report, scratch, progress)
         with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, None, scratch)
+            _, report["picture"] = chain.write_picture(relief, None, scratch)
     return report
 
 
@@ -180,10 +187,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
         _reported(report, scratch),
         chain.stock_file(job, scratch) as report["stock"],
     ):
-        with _timed(report, "panel", progress):
-            panel, report["panel"] = chain.write_panel(relief, job, scratch, progress)
-        with _timed(report, "picture", progress):
-            report["picture"] = chain.write_picture(relief, panel, scratch)
+        _carve(relief, job, report, scratch, progress)
     return report
 
 
@@ -192,15 +196,27 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     job, report = job_of(settings), read_report(folder)
     chain.check(job)
     relief = read_relief(folder / "relief.tiff")
-    drawing = folder / "layers" / "lines.svg"
-    if not drawing.is_file():
-        raise InputError("the job has no drawing", where=str(drawing))
-    strokes = strokes_from_svg(drawing.read_text(encoding="utf-8"), where=str(drawing))
+    strokes = drawn.read_strokes(folder)
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch):
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, strokes, job, progress)
         _prove(paths, relief, job, report, scratch, progress)
+    return report
+
+
+def add_template(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
+    """Draw the template of a relief that lies in a folder, beside it."""
+    job, report = job_of(settings), read_report(folder)
+    relief, strokes = read_relief(folder / "relief.tiff"), drawn.read_strokes(folder)
+    report["settings"] = start_report(settings)["settings"]
+    with (
+        finished_together(folder, TEMPLATE) as scratch,
+        _reported(report, scratch),
+        _timed(report, "template", progress),
+    ):
+        name = report["model"]["name"]
+        report["template"] = drawn.write_template(relief, strokes, job, scratch, name=name)
     return report
 
 

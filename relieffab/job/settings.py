@@ -7,8 +7,10 @@ from typing import Any
 from relieffab import units
 from relieffab.errors import InputError, suggest
 from relieffab.layers.lines.names import NAMES, USUAL, chosen
+from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN, known, part
 from relieffab.relief.names import NAMES as METHODS
+from relieffab.template.pages import PAPERS
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,10 @@ def _signed(text: Any) -> float:
 
 def _kinds(text: Any) -> tuple[str, ...]:
     return chosen(str(text).replace(",", " ").split())
+
+
+def _formats(text: Any) -> tuple[str, ...]:
+    return formats.chosen(str(text).lower().replace(",", " ").split())
 
 
 def _size(text: Any) -> tuple[float, ...]:
@@ -128,6 +134,10 @@ def _up(text: Any) -> str:
     return str(text)
 
 
+def _paper(text: Any) -> str:
+    return _one_of(*PAPERS)(str(text).lower())
+
+
 SETTINGS = (
     Setting("model", str, "", "model file: STL, OBJ, PLY, OFF, GLB or 3MF"),
     Setting("size", _size, "120x90mm", "panel, width x height"),
@@ -189,6 +199,13 @@ SETTINGS = (
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
     Setting("bed", _size, "", "of a printer, X x Y: a larger panel comes in parts, too"),
     Setting("clearance", _not_negative, "0.2mm", "between the tongues and notches of parts"),
+    Setting(
+        "formats",
+        _formats,
+        ",".join(formats.USUAL),
+        "files of the panel, with commas: " + ", ".join(formats.FORMATS),
+    ),
+    Setting("paper", _paper, "a4", "of the template's pages: " + ", ".join(PAPERS)),
 )
 TABLE = {setting.name: setting for setting in SETTINGS}
 
@@ -233,6 +250,8 @@ class Job:
     mesh_tolerance: float
     bed: tuple[float, float] | None
     clearance: float
+    formats: tuple[str, ...]
+    paper: str
 
     def __post_init__(self) -> None:
         if self.depth >= self.thickness:

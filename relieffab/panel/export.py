@@ -1,34 +1,16 @@
-"""Panels as files: STL, 3MF, PLY and OBJ, written beside and then renamed."""
+"""Panels as files: STL, 3MF, PLY, OBJ and GLB, written beside and then renamed."""
 
 import os
-import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
-
-import trimesh
 
 from relieffab.errors import InputError, suggest
+from relieffab.panel.formats import FORMATS
+from relieffab.panel.meshes import to_binary, to_glb, to_metres, to_obj
 from relieffab.panel.model import Panel
+from relieffab.panel.threemf import to_3mf
 from relieffab.panel.weld import weld
-
-# 3MF Core Specification 1.3: the package's parts and their relationship.
-CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
-MODEL_TYPE = "application/vnd.ms-package.3dmanufacturing-3dmodel+xml"
-RELATIONS_TYPE = "application/vnd.openxmlformats-package.relationships+xml"
-PACKAGE = "http://schemas.openxmlformats.org/package/2006"
-XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
-CONTENT_TYPES = (
-    f'{XML}<Types xmlns="{PACKAGE}/content-types">'
-    f'<Default Extension="rels" ContentType="{RELATIONS_TYPE}"/>'
-    f'<Default Extension="model" ContentType="{MODEL_TYPE}"/></Types>'
-)
-RELATIONS = (
-    f'{XML}<Relationships xmlns="{PACKAGE}/relationships">'
-    '<Relationship Id="model" Target="/3D/3dmodel.model" '
-    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
-)
 
 
 @contextmanager
@@ -55,31 +37,13 @@ def beside(path: Path) -> Iterator[Path]:
         part.unlink(missing_ok=True)
 
 
-def _mesh(panel: Panel) -> trimesh.Trimesh:
-    return trimesh.Trimesh(panel.vertices, panel.faces, process=False)
-
-
 def write_stl(panel: Panel, path: Path) -> None:
     """Write a binary STL, mm, single precision as the format has it."""
-    mesh = trimesh.Trimesh(*weld(panel.vertices, panel.faces), process=False)
     with beside(Path(path)) as part:
-        mesh.export(part, file_type="stl")
+        part.write_bytes(to_binary(*weld(panel.vertices, panel.faces), "stl"))
 
 
-def _model_xml(panel: Panel, name: str) -> str:
-    """Describe one object in mm, 3MF Core Specification, chapters 3 and 4."""
-    vertex = '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n' * len(panel.vertices)
-    triangle = '<triangle v1="%d" v2="%d" v3="%d"/>\n' * len(panel.faces)
-    return (
-        f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">\n<resources>'
-        f'<object id="1" type="model" name={quoteattr(name)}><mesh>\n<vertices>\n'
-        f"{vertex % tuple(panel.vertices.ravel().tolist())}</vertices>\n<triangles>\n"
-        f"{triangle % tuple(panel.faces.ravel().tolist())}</triangles>\n"
-        '</mesh></object></resources>\n<build><item objectid="1"/></build>\n</model>\n'
-    )
-
-
-def write_3mf(panel: Panel, path: Path, *, name: str) -> None:
+def write_3mf(panel: Panel, path: Path, *, name: str, picture: bytes | None = None) -> None:
     """Write a 3MF package, mm; the same panel gives the same bytes.
 
     Parameters
@@ -88,29 +52,33 @@ def write_3mf(panel: Panel, path: Path, *, name: str) -> None:
     path : Path
     name : str
         The object's name in the file.
+    picture : bytes, optional
+        A PNG file for the package to show.
     """
-    parts = {
-        "[Content_Types].xml": CONTENT_TYPES,
-        "_rels/.rels": RELATIONS,
-        "3D/3dmodel.model": _model_xml(panel, name),
-    }
-    with beside(Path(path)) as part, zipfile.ZipFile(part, "w") as package:
-        for place, text in parts.items():
-            entry = zipfile.ZipInfo(place)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            package.writestr(entry, text)
+    with beside(Path(path)) as part:
+        part.write_bytes(to_3mf(*weld(panel.vertices, panel.faces), name, picture))
 
 
-def write_panel(panel: Panel, path: Path, *, name: str = "panel") -> None:
-    """Write a panel in the format its suffix names.
+def write_glb(panel: Panel, path: Path, *, name: str) -> None:
+    """Write a binary glTF, in metres and Y up as its specification has it."""
+    with beside(Path(path)) as part:
+        part.write_bytes(to_glb(*weld(to_metres(panel.vertices), panel.faces), name))
+
+
+def write_panel(
+    panel: Panel, path: Path, *, name: str = "panel", picture: bytes | None = None
+) -> None:
+    """Write a panel in the format its suffix names; every format holds single precision.
 
     Parameters
     ----------
     panel : Panel
     path : Path
-        Ends in .stl, .3mf, .ply or .obj.
+        Ends in .stl, .3mf, .ply, .obj or .glb.
     name : str, optional
         The object's name, where the format has one.
+    picture : bytes, optional
+        A PNG file, where the format has room for one.
 
     Raises
     ------
@@ -118,18 +86,19 @@ def write_panel(panel: Panel, path: Path, *, name: str = "panel") -> None:
         If the suffix is another, or the file cannot be written.
     """
     path = Path(path)
-    kind = path.suffix.lower()
-    if kind == ".3mf":
-        write_3mf(panel, path, name=name)
-    elif kind == ".stl":
-        write_stl(panel, path)
-    elif kind in {".ply", ".obj"}:
-        with beside(path) as part:
-            _mesh(panel).export(part, file_type=kind[1:])
-    else:
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in FORMATS:
         raise InputError(
             "unknown format of a panel",
             found=f"{path.suffix!r}",
             where=str(path),
-            hint=suggest(kind, [".stl", ".3mf", ".ply", ".obj"]),
+            hint=suggest(f".{kind}", [f".{known}" for known in FORMATS]),
         )
+    if kind == "3mf":
+        write_3mf(panel, path, name=name, picture=picture)
+    elif kind == "glb":
+        write_glb(panel, path, name=name)
+    else:
+        mesh = weld(panel.vertices, panel.faces)
+        with beside(path) as part:
+            part.write_bytes(to_obj(*mesh, name) if kind == "obj" else to_binary(*mesh, kind))

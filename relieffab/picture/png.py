@@ -54,3 +54,23 @@ def png16(grey: NDArray[np.floating]) -> bytes:
             found=f"{grey.min():g} to {grey.max():g} in shape {grey.shape}",
         )
     return _encode(Image.fromarray(np.rint(grey * 65535).astype(np.uint16)))
+
+
+def smaller(image: NDArray[np.uint8], width: int) -> NDArray[np.uint8]:
+    """Shrink an 8-bit picture to a width, or leave it where it is no wider.
+
+    Parameters
+    ----------
+    image : (rows, cols) or (rows, cols, 3) ndarray of uint8
+    width : int
+        Pixels.
+
+    Returns
+    -------
+    ndarray of uint8
+    """
+    rows, cols = image.shape[:2]
+    if cols <= width:
+        return image
+    size = width, max(1, round(rows * width / cols))
+    return np.asarray(Image.fromarray(image).resize(size, Image.Resampling.LANCZOS))

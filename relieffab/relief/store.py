@@ -1,7 +1,6 @@
-"""Reliefs as files: 32-bit float TIFF that knows its size, 16-bit PNG to look at."""
+"""Reliefs as files: 32-bit float TIFF that knows its size, or 16-bit PNG that does, too."""
 
 import io
-import json
 import zlib
 from pathlib import Path
 
@@ -9,9 +8,11 @@ import numpy as np
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
+from relieffab.relief.about import describe, understand
 from relieffab.relief.model import Relief
+from relieffab.relief.png import from_png
 
-FORMAT = "relieffab relief 1"
+PNG = b"\x89PNG\r\n\x1a\n"
 
 
 def to_tiff(relief: Relief) -> bytes:
@@ -21,19 +22,11 @@ def to_tiff(relief: Relief) -> bytes:
     """
     import tifffile
 
-    description = json.dumps(
-        {
-            "format": FORMAT,
-            "pitch_mm": relief.grid.pitch,
-            "origin_mm": list(relief.grid.origin),
-            "depth_mm": relief.depth,
-        }
-    )
     file = io.BytesIO()
     with tifffile.TiffWriter(file) as writer:
         writer.write(
             relief.heights.astype(np.float32),
-            description=description,
+            description=describe(relief),
             metadata=None,
             compression="zlib",
             resolution=(10 / relief.grid.pitch, 10 / relief.grid.pitch),
@@ -43,51 +36,59 @@ def to_tiff(relief: Relief) -> bytes:
     return file.getvalue()
 
 
-def read_relief(path: str | Path) -> Relief:
+def from_tiff(path: Path) -> Relief:
     """Read a relief that `to_tiff` packed.
 
     Raises
     ------
     InputError
-        If the file is missing, no TIFF, or not one of ours.
+        If it is no TIFF, or not one of ours.
     """
     import tifffile
 
     where = str(path)
-    if not Path(path).is_file():
-        raise InputError("there is no such relief", where=where, hint="relieffab relief MODEL")
     try:
         with tifffile.TiffFile(path) as file:
-            about = json.loads(file.pages[0].description or "null")
+            text = file.pages[0].description
             pages = [page.asarray() for page in file.pages]
     except (tifffile.TiffFileError, ValueError, OSError, zlib.error, IndexError) as fault:
         raise InputError(
-            "the relief cannot be read", expected="a TIFF", found=str(fault)[:200], where=where
+            "the relief cannot be read",
+            expected="a TIFF or a PNG",
+            found=str(fault)[:200],
+            where=where,
         ) from fault
-    if not isinstance(about, dict) or about.get("format") != FORMAT or len(pages) != 2:
+    about = understand(text, where)
+    if len(pages) != 2 or any(page.ndim != 2 for page in pages):
         raise InputError(
             "this TIFF is not a relief of ours",
-            expected=f"{FORMAT!r} in its description and two pages",
-            found=f"{str(about)[:80]!r} and {len(pages)} pages",
+            expected="two pages of one plane, heights and mask",
+            found=", ".join(str(page.shape) for page in pages),
             where=where,
         )
-    try:
-        pitch, depth = float(about["pitch_mm"]), float(about["depth_mm"])
-        x, y = (float(value) for value in about["origin_mm"])
-        rows, cols = pages[1].shape
-    except (KeyError, TypeError, ValueError) as fault:
-        raise InputError(
-            "the relief does not say its size",
-            expected="pitch_mm, origin_mm and depth_mm, and a mask of one plane",
-            found=repr(fault),
-            where=where,
-        ) from fault
     heights = pages[0].astype(np.float64)
     # Single precision may round the deepest height just past the bound.
-    heights = np.where(np.abs(heights + depth) < 1e-6 * depth, -depth, heights)
-    return Relief(Grid(rows, cols, pitch, (x, y)), heights, pages[1] > 0, depth)
+    deepest = np.abs(heights + about.depth) < 1e-6 * about.depth
+    heights = np.where(deepest, -about.depth, heights)
+    rows, cols = pages[1].shape
+    grid = Grid(rows, cols, about.pitch, about.origin)
+    return Relief(grid, heights, pages[1] > 0, about.depth)
 
 
-def grey(relief: Relief) -> np.ndarray:
-    """Heights as grey from 0 (-depth) to 1 (the face), (rows + 1, cols + 1)."""
-    return 1.0 + relief.heights / relief.depth
+def read_relief(path: str | Path) -> Relief:
+    """Read a relief, TIFF or PNG by the file's first bytes.
+
+    A TIFF gives every height in single precision, a PNG within depth / 65535 / 2;
+    grid, mask and depth are the same from both.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, neither of the two, or not one of ours.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError("there is no such relief", where=str(path), hint="relieffab relief MODEL")
+    with path.open("rb") as file:
+        start = file.read(len(PNG))
+    return from_png(path) if start == PNG else from_tiff(path)

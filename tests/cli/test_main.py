@@ -5,10 +5,12 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 
 from relieffab.cli.main import run
 
@@ -110,6 +112,39 @@ def test_stage_by_stage_gives_the_same_programs(made, model, tmp_path, capsys):
         # Heights and strokes come back from files in single precision and to 0.001 mm.
         assert one["cut_mm"] == pytest.approx(other["cut_mm"], rel=0.01)
         assert np.allclose(one["bounds_mm"], other["bounds_mm"], atol=0.02)
+
+
+def test_a_panel_comes_in_the_formats_asked_for(made, tmp_path):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["panel", str(folder), "--formats", "GLB, 3mf"]) == 0
+    assert sorted(p.name for p in folder.glob("panel.*")) == ["panel.3mf", "panel.glb"]
+    report = json.loads((folder / "report.json").read_text())
+    assert report["panel"]["files"] == ["panel.3mf", "panel.glb"]
+    with zipfile.ZipFile(folder / "panel.3mf") as package:
+        picture = Image.open(package.open("Metadata/thumbnail.png"))
+        assert picture.width == min(512, Image.open(folder / "preview.png").width)
+    assert list(trimesh.load_scene(folder / "panel.glb").geometry) == ["relief of ball.obj"]
+    assert run(["panel", str(folder), "--formats", "stp"]) == 2
+    assert (folder / "panel.glb").is_file()
+
+
+def test_a_template_is_added_and_goes_with_a_new_relief(made, model, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["template", str(folder), "--paper", "letter"]) == 0
+    assert "template.pdf  1 page of letter" in capsys.readouterr().out
+    report = json.loads((folder / "report.json").read_text())
+    assert report["template"]["files"] == ["template.svg", "contours.svg", "template.pdf"]
+    assert all((folder / file).is_file() for file in report["template"]["files"])
+    assert (folder / "panel.stl").is_file()
+    assert run(["template", str(folder), "--paper", "a5"]) == 2
+    assert "a4 or letter" in capsys.readouterr().err
+    (folder / "layers" / "lines.svg").unlink()
+    assert run(["template", str(folder)]) == 2
+    assert (folder / "template.pdf").is_file()
+    assert run(["relief", str(model), *SMALL, "-o", str(folder), "--overwrite"]) == 0
+    assert not list(folder.glob("template.*")) + list(folder.glob("contours.*"))
 
 
 def test_other_tools_give_other_programs_and_nothing_else(made, tmp_path, capsys):
@@ -279,6 +314,8 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--bed", "20x30mm"], "too small for their tongues"),
         (["--bed", "30x30mm", "--thickness", "3mm"], "too thin for tongues"),
         (["--bed", "30x30mm", "--clearance", "2mm"], "clearance"),
+        (["--formats", "stl,gbl"], "did you mean glb"),
+        (["--formats", ","], "needs a format"),
     ],
 )
 def test_settings_that_make_no_sense_leave_nothing(model, tmp_path, capsys, arguments, words):
@@ -314,7 +351,7 @@ def test_unknown_commands_and_flags_are_usage_errors(capsys):
 
 
 def test_a_folder_without_a_job_is_told(tmp_path, capsys):
-    for command in ("panel", "toolpath", "verify"):
+    for command in ("panel", "template", "toolpath", "verify"):
         assert run([command, str(tmp_path)]) == 2
         assert "holds no job" in capsys.readouterr().err
 

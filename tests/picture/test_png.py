@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from relieffab.errors import InputError
-from relieffab.picture import png8, png16
+from relieffab.picture import png8, png16, smaller
 
 
 def read(data):
@@ -36,3 +36,10 @@ def test_grey_out_of_range_is_refused(bad):
 def test_floats_are_no_eight_bit_picture():
     with pytest.raises(InputError, match="uint8"):
         png8(np.zeros((4, 4)))
+
+
+@pytest.mark.parametrize(("shape", "small"), [((30, 40, 3), (15, 20, 3)), ((9, 7), (9, 7))])
+def test_a_picture_is_made_smaller_not_larger(shape, small):
+    image = np.full(shape, 77, np.uint8)
+    assert smaller(image, 20).shape == small
+    assert (smaller(image, 20) == 77).all()

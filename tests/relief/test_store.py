@@ -6,8 +6,10 @@ import tifffile
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
+from relieffab.relief.about import describe
 from relieffab.relief.model import Relief
-from relieffab.relief.store import grey, read_relief, to_tiff
+from relieffab.relief.png import to_png
+from relieffab.relief.store import read_relief, to_tiff
 
 
 @pytest.fixture
@@ -53,7 +55,24 @@ def test_other_files_are_refused(tmp_path):
         read_relief(tmp_path / "other.tiff")
 
 
-def test_grey_runs_from_depth_to_face(relief):
-    assert grey(relief).min() >= 0
-    assert grey(relief).max() <= 1
-    assert grey(relief)[2, 3] == pytest.approx(1 + relief.heights[2, 3] / 0.1)
+def test_heights_come_back_as_single_precision_has_them(relief, tmp_path):
+    (tmp_path / "relief.tiff").write_bytes(to_tiff(relief))
+    back = read_relief(tmp_path / "relief.tiff")
+    np.testing.assert_array_equal(back.heights, relief.heights.astype(np.float32).astype(float))
+
+
+def test_the_first_bytes_tell_the_format_not_the_name(relief, tmp_path):
+    (tmp_path / "a.tiff").write_bytes(to_png(relief))
+    (tmp_path / "b.png").write_bytes(to_tiff(relief))
+    for name, error in (("a.tiff", relief.depth / 65535 / 2), ("b.png", 1e-8)):
+        back = read_relief(tmp_path / name)
+        np.testing.assert_allclose(back.heights, relief.heights, atol=error * 1.000001, rtol=0)
+
+
+@pytest.mark.parametrize("pages", [1, 3])
+def test_a_tiff_with_our_words_and_other_pages_is_refused(relief, tmp_path, pages):
+    with tifffile.TiffWriter(tmp_path / "r.tiff") as writer:
+        for _ in range(pages):
+            writer.write(np.zeros((8, 10), np.float32), description=describe(relief), metadata=None)
+    with pytest.raises(InputError, match="two pages"):
+        read_relief(tmp_path / "r.tiff")

@@ -45,7 +45,7 @@ def strokes_to_svg(
             continue
         ink = "goldenrod" if members[0].light else "black"
         group = etree.SubElement(root, f"{_SVG}g", id=kind, fill="none", stroke=ink)
-        group.set("stroke-width", f"{width if kind in PRINCIPAL else width / 2:g}")
+        group.set("stroke-width", f"{pen_width(kind, width):g}")
         group.set("stroke-linecap", "round")
         group.set("stroke-linejoin", "round")
         group.set(f"{_INKSCAPE}groupmode", "layer")
@@ -53,6 +53,11 @@ def strokes_to_svg(
         for stroke in members:
             etree.SubElement(group, f"{_SVG}path", d=_path(stroke, high))
     return etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8").decode()
+
+
+def pen_width(kind: str, width: float) -> float:
+    """Say how wide a kind of line is drawn where those that bound a form are `width` wide."""
+    return width if kind in PRINCIPAL else width / 2
 
 
 def _path(stroke: Stroke, high: float) -> str:
