@@ -2,6 +2,7 @@
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from relieffab.layers.model import Layers
 
@@ -9,6 +10,8 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 STEEPEST = 8.0  # slopes of pixels seen edge on carry no more than this
+SPECK = 1.5  # mm: shorter tears without a line are folds of the mesh, and no occlusions
+INK = 0.02  # from which there is a line
 
 
 def slopes(layers: Layers) -> Floats:
@@ -91,6 +94,32 @@ def beside(across: Bools, down: Bools) -> Bools:
     torn[:-1] |= down
     torn[1:] |= down
     return torn
+
+
+def without_specks(layers: Layers, torn: Bools) -> Bools:
+    """Leave out tears that are neither long nor drawn.
+
+    A fold of the mesh a pixel or two wide jumps as an occlusion does; parted there,
+    the surface would show a tick for it.
+
+    Parameters
+    ----------
+    layers : Layers
+    torn : (rows, cols) ndarray of bool
+        From `beside`.
+
+    Returns
+    -------
+    (rows, cols) ndarray of bool
+        Pixels of connected tears that are at least `SPECK` long or wide, or that a
+        line touches.
+    """
+    tears, _ = ndimage.label(torn, np.ones((3, 3)))
+    sizes = [max(s.stop - s.start for s in box) for box in ndimage.find_objects(tears)]
+    keep = np.array([0, *sizes]) * layers.pitch >= SPECK
+    keep[tears[layers.lines > INK]] = True
+    keep[0] = False
+    return keep[tears]
 
 
 def form(layers: Layers, span: tuple[float, float], *, evenness: float = 0.75) -> Floats:

@@ -8,7 +8,15 @@ from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import beside, compress, form, occlusions, slopes
+from relieffab.relief.compress import (
+    INK,
+    beside,
+    compress,
+    form,
+    occlusions,
+    slopes,
+    without_specks,
+)
 from relieffab.relief.energy.terms import Bounds, Terms, Weights
 from relieffab.relief.groove import inked, swept
 from relieffab.relief.model import inner_nodes, nodes_of, pixel_slopes, to_nodes
@@ -138,7 +146,7 @@ def _grooves(layers: Layers, carving: Carving) -> tuple[Floats, Floats]:
     """Profile of the lines on nodes, mm, and how much pixels belong to them, 0 to 1."""
     deep = line_depth(carving)
     if carving.line_tip is None:
-        cut, lined = inked(layers, deep), layers.lines > 0.02
+        cut, lined = inked(layers, deep), layers.lines > INK
     else:
         cut = swept(layers, deep, carving.line_tip)
         lined = np.minimum(cut[:-1, :-1], cut[1:, 1:]) < 0
@@ -171,7 +179,7 @@ def terms_of(layers: Layers, carving: Carving, fitted: Fit, bounds: Bounds) -> T
     form_length = carving.form_length or 0.02 * max(figure_size(layers))
     slope = slopes(layers)
     across, down = occlusions(layers, slope)
-    torn = beside(across, down)
+    torn = without_specks(layers, beside(across, down))
     level = form(layers, fitted.span)
     base = to_nodes(level, mask.astype(float))
     cut, stencil = _grooves(layers, carving)

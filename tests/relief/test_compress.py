@@ -4,7 +4,15 @@ import pytest
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import default_lights
-from relieffab.relief.compress import STEEPEST, compress, form, occlusions, slopes
+from relieffab.relief.compress import (
+    STEEPEST,
+    beside,
+    compress,
+    form,
+    occlusions,
+    slopes,
+    without_specks,
+)
 
 
 def plane_layers(p, q, step=0.0):
@@ -59,6 +67,25 @@ def test_a_plane_has_no_occlusion_and_a_step_has(p, q):
     assert across[:, 14].all()
     assert across.sum() == 20
     assert not down.any()
+
+
+def test_a_tear_counts_if_it_is_long_or_drawn():
+    layers = plane_layers(0.0, 0.0)
+    depth, lines = np.zeros(layers.grid.shape), np.zeros(layers.grid.shape)
+    depth[2:12, 4:8] = 3.0
+    depth[15, 15] = 3.0
+    depth[15, 22] = 3.0
+    lines[15, 23] = 0.5
+    fine = Grid(20, 30, 0.25, (0.0, 5.0))
+    torn = Layers(**{**vars(layers), "grid": fine, "depth": depth, "lines": lines})
+    every = beside(*occlusions(torn, slopes(torn)))
+    kept = without_specks(torn, every)
+    assert every[15, 15]
+    assert not kept[13:18, 13:18].any()
+    np.testing.assert_array_equal(kept[:, 20:], every[:, 20:])
+    np.testing.assert_array_equal(kept[:13], every[:13])
+    assert kept[15, 22]
+    assert not without_specks(layers, np.zeros(layers.grid.shape, bool)).any()
 
 
 def test_form_keeps_the_depth_order_and_its_room():

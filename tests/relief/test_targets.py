@@ -111,6 +111,15 @@ def test_an_occlusion_is_where_depth_jumps(layers):
     assert across[layers.grid.rows // 2, 79]
 
 
+def test_a_single_pixel_that_jumps_parts_nothing(layers):
+    depth = layers.depth.copy()
+    row, col = layers.grid.rows // 2, 80
+    depth[row, col] += 5.0
+    speck = Layers(**{**vars(layers), "depth": depth, "lines": np.zeros_like(depth)})
+    assert occlusions(speck, np.zeros((2, *layers.grid.shape)))[0][row, col]
+    assert terms_of(speck, Carving(), Fit((-4.0, -1.0), 1.0), free(layers)).mask[row, col]
+
+
 @pytest.mark.parametrize(
     "values",
     [
