@@ -50,8 +50,9 @@ class Carving:
         Of the wall at the figure's edge against the panel's face, degrees; 90 for a
         free one.
     fillet : float
-        Radius of a ball that reaches everywhere: what is narrower is filled, so
-        that a cutter with that tip carves what is shown, mm.
+        Radius of a ball that reaches floor and wall, each for itself, and of the arc
+        at the foot between them: what is narrower is filled, so that a cutter with
+        that tip carves nearly all of what is shown, mm.
     depth_weight, light_weight, line_weight, form_weight : float
     method : str
         'sunken', which all of the above serves, or a method of `relief.classic`,

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from relieffab.errors import InputError
@@ -34,8 +34,9 @@ def test_pages_are_named_from_the_far_left_and_overlap():
     assert pages[0].y - pages[2].y == pytest.approx(tiling.window[1] - OVERLAP)
 
 
+@settings(deadline=None)
 @given(
-    st.tuples(st.floats(1, 2000), st.floats(1, 2000)),
+    st.tuples(st.floats(1, 900), st.floats(1, 900)),
     st.tuples(st.floats(-50, 50), st.floats(-50, 50)),
     st.sampled_from(sorted(PAPERS)),
 )
@@ -46,11 +47,11 @@ def test_pages_cover_all_and_neighbours_share_their_crosses(size, low, paper):
     assert tiling.window == pytest.approx(
         (tiling.paper[0] - 2 * EDGE, tiling.paper[1] - 2 * EDGE - FOOT)
     )
-    windows = [covers(tiling, page) for page in tiling.pages()]
-    assert (np.min([w[0] for w in windows], axis=0) <= np.array(low) + 1e-6).all()
-    assert (np.max([w[1] for w in windows], axis=0) >= np.array(high) - 1e-6).all()
+    low_ends, high_ends = np.transpose([covers(tiling, page) for page in tiling.pages()], (1, 0, 2))
+    assert (low_ends.min(axis=0) <= np.array(low) + 1e-6).all()
+    assert (high_ends.max(axis=0) >= np.array(high) - 1e-6).all()
     for joint in tiling.joints():
-        assert sum((w[0] < joint).all() and (joint < w[1]).all() for w in windows) >= 2
+        assert ((low_ends < joint) & (joint < high_ends)).all(axis=1).sum() >= 2
 
 
 def test_a_wall_is_refused():

@@ -33,7 +33,8 @@ class Level:
     ----------
     matrix : (n, n) sparse matrix
     scale : (n, 1) ndarray
-        Of a sweep: REACH over the sum of each row's sizes, which bounds its eigenvalues.
+        Of a sweep: REACH over the sum of each row's sizes, which bounds its eigenvalues;
+        on the coarsest level, which only divides, 1 over the diagonal.
     up : (n, c) sparse matrix, optional
         From the coarser level to this one; none on the coarsest.
     down : (c, n) sparse matrix, optional
@@ -65,13 +66,17 @@ def coarsen(matrix: sparse.csr_matrix) -> list[Level]:
         scale = REACH / sizes
         strong = _strong(matrix, sizes, STRONG / 2 ** len(levels))
         patch, count = _patches(strong.indptr, strong.indices)
-        own = matrix.astype(np.float32), scale[:, None].astype(np.float32)
-        if count == 0:
-            return [*levels, Level(*own)]
+        single = matrix.astype(np.float32)
+        if count == 0:  # mass rules: the diagonal is nearly all there is
+            return [*levels, Level(single, _column(1 / matrix.diagonal()))]
         up = _interpolation(matrix, strong, patch, scale)
         down = up.T.tocsr()
-        levels.append(Level(*own, up.astype(np.float32), down.astype(np.float32)))
+        levels.append(Level(single, _column(scale), up.astype(np.float32), down.astype(np.float32)))
         matrix = (down @ (matrix @ up)).tocsr()
+
+
+def _column(scale: Floats) -> Floats:
+    return scale[:, None].astype(np.float32)
 
 
 def cycle(levels: list[Level], right: Floats) -> Floats:
