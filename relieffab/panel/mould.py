@@ -13,7 +13,7 @@ import numpy as np
 from relieffab.errors import InputError
 from relieffab.panel.carve import checked, is_watertight
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.solid import arrays_of, manifold_of
+from relieffab.panel.solid import arrays_of, manifold_of, snapped
 
 # Material under the floor, and around at the brim, mm.
 FLOOR, RIM = 4.0, 6.0
@@ -122,4 +122,5 @@ def make_mould(panel: Panel, draft: float = 3.0) -> Panel:
     vertices, faces = arrays_of(solid)
     # Half a turn about Y lays it on its floor; a reflection would cast the panel's image.
     turned = vertices * [-1.0, 1.0, -1.0] + [corner[0] + outer[0], -corner[1], high[2]]
-    return Panel(turned, faces, is_watertight(faces), float(solid.volume()), panel.max_error_mm)
+    tight, volume = is_watertight(faces), float(solid.volume())
+    return Panel(snapped(turned), faces, tight, volume, panel.max_error_mm)

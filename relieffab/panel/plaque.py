@@ -15,7 +15,7 @@ from relieffab.grid import Grid
 from relieffab.panel.carve import checked, is_watertight, make_panel, slab
 from relieffab.panel.model import Floats, Panel
 from relieffab.panel.sinking import check
-from relieffab.panel.solid import arrays_of, manifold_of
+from relieffab.panel.solid import arrays_of, manifold_of, snapped
 from relieffab.progress import Progress, silent
 from relieffab.relief.edge import wall
 from relieffab.relief.model import Relief, nodes_of
@@ -146,4 +146,4 @@ def make_plaque(
     solid = checked(solid ^ sides.translate((0.0, 0.0, BEYOND)), "the trimmed plaque")
     vertices, faces = arrays_of(solid)
     tight, volume = is_watertight(faces), float(solid.volume())
-    return Panel(vertices, faces, tight, volume, panel.max_error_mm)
+    return Panel(snapped(vertices), faces, tight, volume, panel.max_error_mm)
