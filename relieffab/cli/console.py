@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.cli.interrupt import heeding
+from relieffab.job.folder import SOLIDS
 from relieffab.job.settings import Chosen
 from relieffab.progress import Progress, silent
 
@@ -60,27 +61,28 @@ def notes(report: Mapping[str, Any]) -> list[str]:
     return found + list(report.get("material", {}).get("notes", []))
 
 
-def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
-    """Print what was made."""
+def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> int:
+    """Print what was made; return the exit status: 1 if the solid has findings."""
     for note in notes(report):
         message(f"note: {note}")
+    found = report.get(report["settings"].get("solid", ""), {}).get("findings", [])
+    for finding in found:
+        message(f"finding: {finding}")
     if as_json:
         print_json(report)
-        return
+    else:
+        _lines(report, folder)
+    return 1 if found else 0
+
+
+def _lines(report: Mapping[str, Any], folder: Path) -> None:
     if "relief" in report:
         relief = report["relief"]
         size = f"{relief['cols'] - 1} x {relief['rows'] - 1} pixels of {relief['pitch_mm']:.4f} mm"
         print(f"relief   {folder / relief['file']}  {size}, {relief['depth_mm']:g} mm deep")
-    if "panel" in report:
-        panel = report["panel"]
-        tight = "watertight" if panel["watertight"] else "NOT watertight"
-        print(
-            f"panel    {folder / panel['file']}  {panel['triangles']:,} triangles, {tight}, "
-            f"within {panel['max_error_mm']:.3f} mm"
-        )
-        for tile in panel.get("tiles", []):
-            size = " x ".join(f"{side:.1f}" for side in tile["size_mm"])
-            print(f"part     {folder / tile['file']}  {size} mm")
+    for name in SOLIDS:
+        if name in report:
+            _solid(name, report[name], folder)
     if "template" in report:
         part = report["template"]
         pages = f"{part['pages']} page{'s' * (part['pages'] != 1)} of {part['paper']}"
@@ -90,6 +92,20 @@ def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> None:
         picture = report["picture"]
         print(f"picture  {folder / picture['file']}  ({picture['method']})")
     print(f"report   {folder / 'report.json'}, {folder / 'report.html'}")
+
+
+def _solid(name: str, part: Mapping[str, Any], folder: Path) -> None:
+    tight = "watertight" if part["watertight"] else "NOT watertight"
+    print(
+        f"{name:<8} {folder / part['file']}  {part['triangles']:,} triangles, {tight}, "
+        f"within {part['max_error_mm']:.3f} mm"
+    )
+    if "draft" in part:
+        draft = part["draft"]
+        print(f"draft    {draft['least_deg']:.2f} degrees or more, {draft['asked_deg']:g} asked")
+    for tile in part.get("tiles", []):
+        size = " x ".join(f"{side:.1f}" for side in tile["size_mm"])
+        print(f"part     {folder / tile['file']}  {size} mm")
 
 
 def _programs(report: Mapping[str, Any], folder: Path) -> None:

@@ -31,11 +31,11 @@ def demo(
     program = next(p["file"] for p in report["programs"] if p["file"].startswith("02"))
     console.message(f"streaming {output / program} to a simulated Grbl machine")
     sent = stream((output / program).read_text(encoding="ascii"), SIMULATED)
-    console.result(report, output, as_json=as_json)
+    status = console.result(report, output, as_json=as_json)
     if not as_json:
         print(f"streamed {sent.lines:,} lines, {sent.cut_mm:,.0f} mm cut, to {SIMULATED}")
         print(f"\nLook at {(output / 'preview.png').resolve()}")
-    return 0
+    return status
 
 
 def init(

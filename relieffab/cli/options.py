@@ -14,7 +14,7 @@ from relieffab.job.report import read_report
 from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
-PANEL_SETTINGS = ("mesh_tolerance", "formats", "bed", "clearance")
+PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
 TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
 TEMPLATE_SETTINGS = ("paper",)
 # What makes no difference between methods, or is what `compare` goes through.

@@ -86,19 +86,20 @@ def _from_model(
 
     with console.progress_bar() as progress:
         report = getattr(run, stage)(settings, output, overwrite=overwrite, progress=progress)
-    console.result(report, output, as_json=as_json)
-    return 0
+    return console.result(report, output, as_json=as_json)
 
 
 def panel(folder: Folder, /, *, flags: PanelFlags = None, as_json: Json = False) -> int:
-    """Add the solid panel to a relief's folder: its mesh, and STEP of the stock."""
+    """Add the solid panel, a plaque or a mould to a relief's folder: its mesh, STEP of the stock.
+
+    Exit status 1: a cast will not come free of the mould.
+    """
     from relieffab.job import run
 
     settings = settings_in(folder, PANEL_SETTINGS, flags)
     with console.progress_bar() as progress:
         report = run.add_panel(settings, folder, progress=progress)
-    console.result(report, folder, as_json=as_json)
-    return 0
+    return console.result(report, folder, as_json=as_json)
 
 
 def template(folder: Folder, /, *, flags: TemplateFlags = None, as_json: Json = False) -> int:

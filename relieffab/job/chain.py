@@ -11,7 +11,7 @@ import numpy as np
 from relieffab import profiles
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
-from relieffab.job import parts
+from relieffab.job import solids
 from relieffab.job.settings import Job
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.svg import strokes_to_svg
@@ -20,7 +20,6 @@ from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
-from relieffab.panel.carve import make_panel
 from relieffab.panel.model import Panel
 from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
 from relieffab.picture import panel_picture, png8, png16, smaller
@@ -77,7 +76,7 @@ def check(job: Job) -> None:
     """
     carving_of(job)
     profiles.material(job.material)
-    parts.check(job)
+    solids.check(job)
     cutters = cutters_of(job)
     check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
     if job.stepover is not None:
@@ -173,35 +172,38 @@ def write_relief(relief: Relief, folder: Path) -> str:
     return hashlib.sha256(packed).hexdigest()
 
 
-def carve_panel(relief: Relief, job: Job, progress: Progress = silent) -> Panel:
-    """Carve the solid."""
-    return make_panel(relief, stock_of(job), tolerance=job.mesh_tolerance, progress=progress)
+def make_solid(relief: Relief, job: Job, progress: Progress = silent) -> tuple[Panel, Part]:
+    """Make the solid a job asks for, and what there is to say of it alone."""
+    return solids.make(relief, stock_of(job), job, progress)
 
 
-def write_panel(panel: Panel, job: Job, folder: Path, *, name: str, picture: bytes) -> Part:
-    """Write the solid in the job's formats; the part is report.json's `panel`.
+def write_solid(
+    solid: Panel, job: Job, folder: Path, *, name: str, picture: bytes | None = None
+) -> Part:
+    """Write a solid in the job's formats, and in parts; what report.json holds of it.
 
     Parameters
     ----------
-    panel : Panel
+    solid : Panel
     job : Job
     folder : Path
     name : str
         Of the model, for formats that name their object.
-    picture : bytes
+    picture : bytes, optional
         A PNG file, for formats that carry one.
     """
-    files = [f"panel.{kind}" for kind in job.formats]
+    files = [f"{job.solid}.{kind}" for kind in job.formats]
+    title = {"panel": "relief of", "plaque": "plaque of", "mould": "mould of"}[job.solid]
     for file in files:
-        export.write_panel(panel, folder / file, name=f"relief of {name}", picture=picture)
+        export.write_panel(solid, folder / file, name=f"{title} {name}", picture=picture)
     return {
         "file": files[0],
         "files": files,
-        "triangles": len(panel.faces),
-        "watertight": panel.watertight,
-        "volume_mm3": panel.volume_mm3,
-        "max_error_mm": panel.max_error_mm,
-        **parts.write(panel, "panel", job, folder),
+        "triangles": len(solid.faces),
+        "watertight": solid.watertight,
+        "volume_mm3": solid.volume_mm3,
+        "max_error_mm": solid.max_error_mm,
+        **solids.write_parts(solid, job, folder),
     }
 
 

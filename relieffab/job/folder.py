@@ -5,6 +5,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
 from relieffab.errors import InputError
@@ -15,14 +16,20 @@ REPORT = "report.json"
 # What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
-PANEL = (
-    *(f"panel.{kind}" for kind in FORMATS),
-    "stock.step",
-    *("panel-[A-Z][1-9].stl", "panel-[A-Z][1-9][0-9].stl"),
-)
+STOCK = "stock.step"
+SOLIDS = {
+    name: (
+        *(f"{name}.{kind}" for kind in FORMATS),
+        *(f"{name}-[A-Z][1-9].stl", f"{name}-[A-Z][1-9][0-9].stl"),
+    )
+    for name in ("panel", "plaque", "mould")
+}
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
-ALL = (*LAYERS, *RELIEF, *PANEL, *PROGRAMS, *TEMPLATE, "report.html")
+ALL = (
+    *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK),
+    *(*PROGRAMS, *TEMPLATE, "report.html"),
+)
 
 
 def check_folder(folder: Path, *, overwrite: bool) -> None:

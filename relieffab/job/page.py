@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
+from relieffab.job.folder import SOLIDS
+
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem }
 img { max-width: 100%; height: auto }
@@ -66,6 +68,20 @@ def _verdict(part: Mapping[str, Any]) -> str:
     return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}'
 
 
+def _solid(part: Mapping[str, Any]) -> str:
+    rows = [
+        ["triangles", f"{part['triangles']:,}"],
+        ["volume", f"{part['volume_mm3'] / 1000:.2f} cm³"],
+        ["largest error", f"{part['max_error_mm']:.4f} mm"],
+    ]
+    if "draft" in part:
+        rows.append(["least draft", f"{part['draft']['least_deg']:.2f} degrees"])
+    for tile in part.get("tiles", []):
+        rows.append([tile["file"], " x ".join(f"{side:.1f}" for side in tile["size_mm"]) + " mm"])
+    found = "".join(f'<p class="bad">{escape(text)}</p>' for text in part.get("findings", []))
+    return _table(["measure", "value"], rows) + found
+
+
 def page(report: Mapping[str, Any]) -> str:
     """Lay a report out as HTML."""
     name = report.get("model", {}).get("name", "relief")
@@ -81,14 +97,9 @@ def page(report: Mapping[str, Any]) -> str:
             "<p>Work zero is the near left corner of the stock, Z0 on its face.</p>",
             _programs(report["programs"]),
         ]
-    if "panel" in report:
-        panel = report["panel"]
-        rows = [
-            ["triangles", f"{panel['triangles']:,}"],
-            ["volume", f"{panel['volume_mm3'] / 1000:.2f} cm³"],
-            ["largest error", f"{panel['max_error_mm']:.4f} mm"],
-        ]
-        parts += ["<h2>Panel</h2>", _table(["measure", "value"], rows)]
+    for solid in SOLIDS:
+        if solid in report:
+            parts += [f"<h2>{solid.capitalize()}</h2>", _solid(report[solid])]
     notes = report.get("model", {}).get("notes", []) + report.get("material", {}).get("notes", [])
     if notes:
         parts.append("<h2>Notes</h2><ul>")

@@ -7,7 +7,7 @@ from typing import Any
 
 from relieffab import __version__
 from relieffab.errors import InputError
-from relieffab.job.folder import REPORT
+from relieffab.job.folder import REPORT, SOLIDS
 from relieffab.job.page import page
 from relieffab.job.settings import Chosen
 
@@ -21,7 +21,7 @@ KEYS = (
     "view",
     "settings",
     "relief",
-    "panel",
+    *SOLIDS,
     "stock",
     "template",
     "machine",

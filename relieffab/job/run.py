@@ -7,8 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import chain, drawn, programs
-from relieffab.job.folder import ALL, PANEL, PROGRAMS, TEMPLATE, check_folder, finished_together
+from relieffab.job import chain, drawn, programs, solids
+from relieffab.job.folder import (
+    ALL,
+    PROGRAMS,
+    SOLIDS,
+    STOCK,
+    TEMPLATE,
+    check_folder,
+    finished_together,
+)
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
@@ -70,14 +78,20 @@ def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[
 
 
 def _carve(relief: Relief, job: Job, report: Report, folder: Path, progress: Progress) -> None:
-    """Carve the panel, take its picture, and write both: the picture goes into the 3MF, too."""
-    with _timed(report, "panel", progress):
-        panel = chain.carve_panel(relief, job, progress)
-    with _timed(report, "picture", progress):
-        small, report["picture"] = chain.write_picture(relief, panel, folder)
+    """Make the job's solid and write it.
+
+    The panel's picture goes into its 3MF, too; other solids leave the picture that is there.
+    """
+    with _timed(report, job.solid, progress):
+        solid, facts = chain.make_solid(relief, job, progress)
+    panel, small = solid if job.solid == "panel" else None, None
+    if panel or "picture" not in report:
+        with _timed(report, "picture", progress):
+            small, report["picture"] = chain.write_picture(relief, panel, folder)
     with _timed(report, "export", progress):
-        name = report["model"]["name"]
-        report["panel"] = chain.write_panel(panel, job, folder, name=name, picture=small)
+        name, picture = report["model"]["name"], small if panel else None
+        part = chain.write_solid(solid, job, folder, name=name, picture=picture)
+        report[job.solid] = {**part, **facts}
 
 
 def _prove(
@@ -178,12 +192,16 @@ def make_relief(
 
 
 def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
-    """Carve the panel of a relief that lies in a folder, beside it."""
+    """Make the panel of a relief that lies in a folder, or another solid, beside it.
+
+    Files of other solids stay, as do their parts of the report.
+    """
     job, report = job_of(settings), read_report(folder)
+    solids.check(job)
     relief = read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
-        finished_together(folder, PANEL) as scratch,
+        finished_together(folder, (*SOLIDS[job.solid], STOCK)) as scratch,
         _reported(report, scratch),
         chain.stock_file(job, scratch) as report["stock"],
     ):

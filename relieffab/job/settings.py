@@ -197,7 +197,14 @@ SETTINGS = (
         "yes: solve again without the forms that the finest cutter cannot reach",
     ),
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
-    Setting("bed", _size, "", "of a printer, X x Y: a larger panel comes in parts, too"),
+    Setting(
+        "solid",
+        _one_of("panel", "plaque", "mould"),
+        "panel",
+        "panel, plaque (the figure raised from a ground) or mould (that casts the panel)",
+    ),
+    Setting("draft", units.angle, "3deg", "of a mould's walls, and the least that the relief has"),
+    Setting("bed", _size, "", "of a printer, X x Y: a larger solid comes in parts, too"),
     Setting("clearance", _not_negative, "0.2mm", "between the tongues and notches of parts"),
     Setting(
         "formats",
@@ -248,6 +255,8 @@ class Job:
     stepover: float | None
     reachable: str
     mesh_tolerance: float
+    solid: str
+    draft: float
     bed: tuple[float, float] | None
     clearance: float
     formats: tuple[str, ...]

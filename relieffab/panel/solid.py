@@ -6,6 +6,8 @@ import numpy as np
 from relieffab.panel.carve import checked
 from relieffab.panel.model import Floats, Ints, Panel
 
+ROUNDING = 1e-7  # mm
+
 
 def manifold_of(panel: Panel, what: str) -> manifold3d.Manifold:
     """Hand a panel to the modeller.
@@ -31,6 +33,14 @@ def arrays_of(solid: manifold3d.Manifold) -> tuple[Floats, Ints]:
     mesh = solid.to_mesh64()
     vertices = np.array(mesh.vert_properties[:, :3], np.float64)
     return vertices, np.array(mesh.tri_verts, np.int64)
+
+
+def snapped(vertices: Floats) -> Floats:
+    """Put coordinates on 0 that are within rounding of it.
+
+    Near 0 single precision has numbers that readers of files take for the same.
+    """
+    return np.where(np.abs(vertices) < ROUNDING, 0.0, vertices)
 
 
 def lowest_facing_up(panel: Panel) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 
 from relieffab.panel.carve import checked, is_watertight
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.solid import arrays_of, lowest_facing_up, manifold_of
+from relieffab.panel.solid import arrays_of, lowest_facing_up, manifold_of, snapped
 from relieffab.panel.tongues import (
     BEYOND,
     ROUNDING,
@@ -76,12 +76,14 @@ class _Cut:
         tongues = max(1, min(max(2, round(side / SPACING)), most))
         return (np.arange(tongues) + 0.5) * side / tongues
 
-    def _on_seam(self, at: Pair, across: bool, grow: float) -> list[manifold3d.Manifold]:
+    def _on_seam(
+        self, at: Pair, across: bool, clearance: float | None
+    ) -> list[manifold3d.Manifold]:
         up = (0.0, 0.0, float(self.low[2]))
         found = []
         for step in self._along(0 if across else 1):
             place = (at[0] + step, at[1]) if across else (at[0], at[1] + step)
-            found.append(prism(place, across, self.height, grow).translate(up))
+            found.append(prism(place, across, self.height, clearance).translate(up))
         return found
 
     def region(self, row: int, col: int) -> manifold3d.Manifold:
@@ -93,9 +95,9 @@ class _Cut:
         end = np.add([*last, self.high[2]], [not right, not far, BEYOND])
         solids = [manifold3d.Manifold.cube(tuple(end - start)).translate(tuple(start))]
         if right:
-            solids += self._on_seam((last[0], first[1]), False, 0.0)
+            solids += self._on_seam((last[0], first[1]), False, None)
         if far:
-            solids += self._on_seam((first[0], last[1]), True, 0.0)
+            solids += self._on_seam((first[0], last[1]), True, None)
         notches = self._on_seam(first, False, self.clearance) if left else []
         notches += self._on_seam(first, True, self.clearance) if near else []
         whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
@@ -140,5 +142,5 @@ def split(panel: Panel, bed: Pair, clearance: float = 0.2) -> tuple[Tile, ...]:
         place = cut.corner(row, col)
         vertices[:, :2] -= place
         facts = (is_watertight(faces), float(part.volume()), panel.max_error_mm)
-        tiles.append(Tile(vertices, faces, *facts, row, col, place))
+        tiles.append(Tile(snapped(vertices), faces, *facts, row, col, place))
     return tuple(tiles)

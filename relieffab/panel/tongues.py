@@ -130,7 +130,7 @@ def tongue_height(thickness: float, floor: float, clearance: float) -> float:
     return height
 
 
-def prism(at: Pair, across: bool, height: float, grow: float) -> manifold3d.Manifold:
+def prism(at: Pair, across: bool, height: float, clearance: float | None) -> manifold3d.Manifold:
     """Stand a tongue on Z0, or what cuts its notch.
 
     Parameters
@@ -141,18 +141,18 @@ def prism(at: Pair, across: bool, height: float, grow: float) -> manifold3d.Mani
         Whether the seam runs along X: the tongue points to +Y, else to +X.
     height : float
         mm.
-    grow : float
-        0 for the tongue; the clearance for what cuts the notch.
+    clearance : float or None
+        None for the tongue; mm for what cuts its notch, below Z0, too.
 
     Returns
     -------
     Manifold
     """
+    grow, below = (0.0, 0.0) if clearance is None else (clearance, -BEYOND)
     lean, half = tan(radians(TAPER)), WIDTH / 2 + grow / cos(radians(TAPER))
-    tip = LENGTH + grow
-    u = np.array([-BEYOND, 0.0, tip, tip, 0.0, -BEYOND])
-    v = np.array([half, half, half - tip * lean, tip * lean - half, -half, -half])
-    points = np.stack([v, u] if across else [u[::-1], v[::-1]], axis=1) + at
-    below = BEYOND if grow else 0.0
-    plan = manifold3d.CrossSection([points])
-    return plan.extrude(height + grow + below).translate((0.0, 0.0, -below))
+    # The sides go on past the seam, so that they cross it and have no corner there.
+    u = np.array([-BEYOND, LENGTH + grow, LENGTH + grow, -BEYOND])
+    v = (half - u * lean) * [1.0, 1.0, -1.0, -1.0]
+    plan = np.stack([v, u] if across else [u, v], axis=1) + at
+    corners = [(x, y, z) for x, y in plan for z in (below, height + grow)]
+    return manifold3d.Manifold.hull_points(corners)

@@ -190,6 +190,44 @@ def test_a_bed_gives_parts_and_a_larger_one_takes_them_away(made, tmp_path, caps
     assert (folder / "panel.stl").is_file()
 
 
+def test_plaque_and_mould_lie_beside_the_panel(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    before = json.loads((folder / "report.json").read_text())
+    for solid in ("plaque", "mould"):
+        assert run(["panel", str(folder), "--solid", solid]) == 0
+        assert f"{solid}.stl" in capsys.readouterr().out
+    report = json.loads((folder / "report.json").read_text())
+    assert report["panel"] == before["panel"]
+    assert report["picture"] == before["picture"]
+    assert report["mould"]["findings"] == []
+    assert report["mould"]["draft"]["least_deg"] > 3
+    for solid in ("panel", "plaque", "mould"):
+        read = trimesh.load_mesh(folder / f"{solid}.stl")
+        assert read.is_volume
+        assert read.volume == pytest.approx(report[solid]["volume_mm3"], rel=1e-6)
+        assert (folder / f"{solid}.3mf").is_file()
+        assert report[solid]["max_error_mm"] <= 0.02
+    assert "<h2>Mould</h2>" in (folder / "report.html").read_text()
+
+
+def test_a_mould_that_holds_its_cast_is_written_and_told(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    assert run(["panel", str(folder), "--solid", "mould", "--draft", "30deg"]) == 1
+    told = capsys.readouterr()
+    assert "will not come free" in told.err
+    part = json.loads((folder / "report.json").read_text())["mould"]
+    assert len(part["findings"]) == 1
+    assert part["draft"]["least_deg"] < 30
+    assert 0 < part["draft"]["share"] < part["draft"]["walls_share"] <= 1
+    assert trimesh.load_mesh(folder / "mould.stl").is_volume
+    # What a mould was found to be is no finding of the panel's.
+    assert run(["panel", str(folder), "--solid", "panel"]) == 0
+    assert run(["panel", str(folder), "--solid", "mould", "--draft", "60deg"]) == 2
+    assert json.loads((folder / "report.json").read_text())["mould"] == part
+
+
 def test_verify_believes_neither_report_nor_profiles(made, tmp_path, monkeypatch, capsys):
     folder = tmp_path / "job"
     shutil.copytree(made, folder)
@@ -310,6 +348,8 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--line-length", "-1mm"], "0 or more"),
         (["--line-spread", "wide"], "not a length"),
         (["--method", "lineer"], "did you mean linear"),
+        (["--solid", "statue"], "panel or plaque or mould"),
+        (["--draft", "50deg"], "0 to 45 degrees"),
         (["--bed", "220mm"], "width x height"),
         (["--bed", "20x30mm"], "too small for their tongues"),
         (["--bed", "30x30mm", "--thickness", "3mm"], "too thin for tongues"),

@@ -11,10 +11,10 @@ from relieffab.grid import Grid
 from relieffab.layers.raster import rasterise
 from relieffab.panel import tongues as module
 from relieffab.panel.carve import make_panel
+from relieffab.panel.export import write_stl
 from relieffab.panel.model import Panel
 from relieffab.panel.solid import manifold_of
 from relieffab.panel.tiles import split
-from relieffab.panel.weld import weld
 from relieffab.stock import Stock
 
 CLEARANCE = 0.3
@@ -59,9 +59,15 @@ def test_volumes_add_up_but_for_the_clearance(four):
     tongues = 2 * int(35 / 25.3) + 2 * int(50 / 25.3)
     lost = tongues * (notch - tongue)
     assert tongues == 4
-    assert sum(tile.volume_mm3 for tile in four) == pytest.approx(63000 - lost, abs=1e-5)
-    assert four[2].volume_mm3 == pytest.approx(63000 / 4 + 2 * tongue, abs=1e-5)
-    assert four[1].volume_mm3 == pytest.approx(63000 / 4 - 2 * notch, abs=1e-5)
+    assert sum(tile.volume_mm3 for tile in four) == pytest.approx(63000 - lost, abs=1e-8)
+    assert four[2].volume_mm3 == pytest.approx(63000 / 4 + 2 * tongue, abs=1e-8)
+    assert four[1].volume_mm3 == pytest.approx(63000 / 4 - 2 * notch, abs=1e-8)
+
+
+def test_seams_and_mouths_of_notches_lie_in_one_plane(four):
+    for tile in four:
+        from_seam = np.abs(tile.vertices[:, :2] - [50.0 * (tile.col == 0), 35.0 * (tile.row == 1)])
+        assert not ((from_seam > 0) & (from_seam < 0.1)).any()
 
 
 def test_no_two_parts_overlap(four):
@@ -79,7 +85,7 @@ def test_the_gap_is_the_clearance(four, axis):
     half = half.translate(tuple(np.where(np.arange(3) == axis, far + 50.001, 0.0)))
     tongue = assembled(own) ^ half
     assert tongue.volume() > 100
-    assert tongue.min_gap(assembled(neighbour), 2.0) == pytest.approx(CLEARANCE, abs=1e-7)
+    assert tongue.min_gap(assembled(neighbour), 2.0) == pytest.approx(CLEARANCE, abs=1e-12)
     for way in (1.0, -1.0):
         side = np.zeros(3)
         side[1 - axis] = way
@@ -90,7 +96,7 @@ def test_the_gap_is_the_clearance(four, axis):
             assert held[1] > 1e-3 or not step.any()
 
 
-def test_each_part_fits_the_bed_and_is_a_solid(make_relief):
+def test_each_part_fits_the_bed_and_is_a_solid(make_relief, tmp_path):
     panel = bumpy_panel(make_relief)
     for bed in [(60.0, 42.0), (40.0, 70.0), (100.0, 40.0)]:
         tiles = split(panel, bed)
@@ -101,7 +107,8 @@ def test_each_part_fits_the_bed_and_is_a_solid(make_relief):
             mesh = trimesh.Trimesh(tile.vertices, tile.faces, process=False)
             assert mesh.is_volume
             assert mesh.volume == pytest.approx(tile.volume_mm3)
-            assert trimesh.Trimesh(*weld(tile.vertices, tile.faces), process=False).is_volume
+            write_stl(tile, tmp_path / "part.stl")
+            assert trimesh.load_mesh(tmp_path / "part.stl").is_volume
 
 
 def test_the_relief_goes_on_across_the_seams(make_relief):
@@ -122,6 +129,13 @@ def test_tongues_lie_on_the_bed_under_the_relief(make_relief):
     beyond = tile.vertices[tile.vertices[:, 0] > 50.0 + 1e-6]
     assert {-8.0, -8.0 + 8.0 / 3} == set(beyond[:, 2])
     assert beyond[:, 0].max() == 55.0
+
+
+def test_without_clearance_tongues_fill_their_notches(plain):
+    tiles = split(plain, (60.0, 42.0), 0.0)
+    assert sum(tile.volume_mm3 for tile in tiles) == pytest.approx(63000)
+    for one, other in combinations(tiles, 2):
+        assert (assembled(one) ^ assembled(other)).volume() == pytest.approx(0, abs=1e-9)
 
 
 def test_a_panel_that_fits_stays_whole(plain):

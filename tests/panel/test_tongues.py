@@ -1,3 +1,5 @@
+from math import radians, tan
+
 import pytest
 
 from relieffab.errors import InputError
@@ -21,13 +23,12 @@ def test_tongues_keep_below_the_relief():
 
 
 def test_a_tongue_tapers_from_the_seam():
-    from math import radians, tan
-
-    tongue = prism((30.0, 20.0), False, 3.0, 0.0)
+    tongue = prism((30.0, 20.0), False, 3.0, None)
     x0, y0, z0, x1, y1, z1 = tongue.bounding_box()
     assert (x1, z0, z1) == pytest.approx((30 + LENGTH, 0, 3))
-    assert (y0, y1) == pytest.approx((20 - WIDTH / 2, 20 + WIDTH / 2))
+    seam = tongue.trim_by_plane((1.0, 0.0, 0.0), 30.0).bounding_box()
+    assert (seam[1], seam[4]) == pytest.approx((20 - WIDTH / 2, 20 + WIDTH / 2))
     tip = tongue.trim_by_plane((1.0, 0.0, 0.0), x1 - 1e-3).bounding_box()
     assert tip[4] - tip[1] == pytest.approx(WIDTH - 2 * LENGTH * tan(radians(TAPER)), abs=1e-2)
-    turned = prism((20.0, 30.0), True, 3.0, 0.0).bounding_box()
+    turned = prism((20.0, 30.0), True, 3.0, None).bounding_box()
     assert turned == pytest.approx((y0, x0, z0, y1, x1, z1))

@@ -1,0 +1,109 @@
+"""The solids a relief becomes: panel, plaque or mould, whole and in parts."""
+
+from pathlib import Path
+from typing import Any
+
+from relieffab.job.settings import Job
+from relieffab.panel.carve import make_panel
+from relieffab.panel.draft import check_draft
+from relieffab.panel.export import write_stl
+from relieffab.panel.model import Panel
+from relieffab.panel.mould import FLOOR, make_mould, outer_size
+from relieffab.panel.plaque import make_plaque
+from relieffab.panel.tiles import split
+from relieffab.panel.tongues import layout, tongue_height
+from relieffab.progress import Progress, silent
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+
+Facts = dict[str, Any]
+
+
+def check(job: Job) -> None:
+    """Refuse a draft, a bed or a slab that gives no solid, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If walls have no such draft, the bed is too small, or the slab too thin
+        for tongues.
+    """
+    outer = outer_size(job.size, job.thickness, job.draft)
+    size, thickness, floor = {
+        "panel": (job.size, job.thickness, job.thickness - job.depth),
+        "plaque": (job.size, job.thickness + job.depth, job.thickness),
+        "mould": (outer, job.thickness + FLOOR, FLOOR),
+    }[job.solid]
+    if job.bed is not None and layout(size, job.bed, job.clearance) != (1, 1):
+        tongue_height(thickness, floor, job.clearance)
+
+
+def make(
+    relief: Relief, stock: Stock, job: Job, progress: Progress = silent
+) -> tuple[Panel, Facts]:
+    """Make the solid that a job asks for, and what is to be said of a mould."""
+    tolerance = job.mesh_tolerance
+    if job.solid == "plaque":
+        angle = job.wall_angle
+        return make_plaque(
+            relief, stock, wall_angle=angle, tolerance=tolerance, progress=progress
+        ), {}
+    panel = make_panel(relief, stock, tolerance=tolerance, progress=progress)
+    if job.solid == "panel":
+        return panel, {}
+    return make_mould(panel, job.draft), draft_facts(relief, stock, job)
+
+
+def draft_facts(relief: Relief, stock: Stock, job: Job) -> Facts:
+    """Say whether a cast comes free of the mould: `draft` and `findings` of report.json."""
+    found = check_draft(relief, stock, job.draft)
+    part: Facts = {
+        "draft": {
+            "asked_deg": found.asked,
+            "least_deg": found.least,
+            "where_mm": found.where and list(found.where),
+            "share": found.share,
+            "walls_share": found.walls,
+        },
+        "findings": [],
+    }
+    if found.where and not found.ok:
+        x, y = found.where
+        part["findings"].append(
+            f"a cast will not come free: {found.share:.2%} of the relief, {found.walls:.2%} of its "
+            f"walls, has less draft than {found.asked:g} degrees; the least is {found.least:.2f}, "
+            f"at X {x:.2f} Y {y:.2f} (a gentler --wall-angle helps)"
+        )
+    return part
+
+
+def write_parts(solid: Panel, job: Job, folder: Path) -> Facts:
+    """Split a solid for the job's bed and write its parts as panel-A1.stl and so on.
+
+    Returns
+    -------
+    dict
+        `tiles`: what each part is and where it lies, none if the solid fits the
+        bed; and nothing at all where there is no bed.
+    """
+    if job.bed is None:
+        return {}
+    tiles = split(solid, job.bed, job.clearance)
+    if len(tiles) == 1:
+        return {"tiles": []}
+    listed = []
+    for tile in tiles:
+        file = f"{job.solid}-{tile.name}.stl"
+        write_stl(tile, folder / file)
+        size = tile.vertices.max(axis=0) - tile.vertices.min(axis=0)
+        listed.append(
+            {
+                "file": file,
+                "place_mm": list(tile.place),
+                "size_mm": size.tolist(),
+                "triangles": len(tile.faces),
+                "watertight": tile.watertight,
+                "volume_mm3": tile.volume_mm3,
+            }
+        )
+    return {"tiles": listed}

@@ -1,0 +1,149 @@
+"""The raised plaque: the same figure, standing out of a level ground.
+
+A sunken figure lies in a pit: along its outline stands a wall, which on a plaque
+would be a ridge.  So what the wall covers is continued from the figure beside it,
+and the plaque falls to its ground by the same wall turned upside down.
+"""
+
+from dataclasses import replace
+from math import ceil
+
+import numpy as np
+from scipy import ndimage
+
+from relieffab.grid import Grid
+from relieffab.panel.carve import checked, is_watertight, make_panel, slab
+from relieffab.panel.model import Floats, Panel
+from relieffab.panel.sinking import check
+from relieffab.panel.solid import arrays_of, manifold_of, snapped
+from relieffab.progress import Progress, silent
+from relieffab.relief.edge import wall
+from relieffab.relief.model import Relief, nodes_of
+from relieffab.stock import Stock
+
+# Of the depth: what is no higher than this above the wall's own height is the wall.
+SLACK = 0.01
+# Pixels that the wall's foot is rounded, and from a floor to what counts as a trench.
+FOOT, TRENCH = 1.5, 4.0
+EVEN = 1.5  # pixels over which what was continued is evened out
+BEYOND = 1.0  # mm that the stock is taller, so that it only cuts sides
+ROUNDING = 1e-6
+
+
+def freed(relief: Relief, wall_angle: float) -> Floats:
+    """Give the figure's heights as if no wall stood at its edge.
+
+    Parameters
+    ----------
+    relief : Relief
+    wall_angle : float
+        That it was carved with, degrees.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        mm.  Nodes on the wall continue the nearest ones that are not; in a trench
+        too narrow for a floor, those at its bottom.
+    """
+    h, figure = relief.heights, nodes_of(relief.mask)
+    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
+    walled = figure & (h <= edge + SLACK * relief.depth)
+    if not walled.any():
+        return h
+    floor = figure & (ndimage.distance_transform_edt(~walled) > FOOT)
+    lowest = ndimage.minimum_filter(np.where(figure, h, np.inf), 3)
+    trench = (edge < 0) & (h <= lowest) & (ndimage.distance_transform_edt(~floor) > TRENCH)
+    sound = floor | trench
+    nearest = ndimage.distance_transform_edt(~sound, return_distances=False, return_indices=True)
+    found = np.where(figure, h[tuple(nearest)], 0.0)
+    # Nearest nodes change abruptly along a wall: even that out, sound nodes staying.
+    weight = np.maximum(ndimage.gaussian_filter(figure.astype(float), EVEN), 1e-9)
+    for _ in range(3):
+        even = ndimage.gaussian_filter(found, EVEN) / weight
+        found = np.where(figure & ~sound, even, found)
+    return np.clip(found, -relief.depth, 0.0)
+
+
+def raised(relief: Relief, wall_angle: float = 80.0) -> Relief:
+    """Stand the figure of a sunken relief on a level ground.
+
+    Parameters
+    ----------
+    relief : Relief
+    wall_angle : float, optional
+        That it was carved with, degrees.
+
+    Returns
+    -------
+    Relief
+        At -depth outside the figure and along its edge; inside, the same heights,
+        0 the highest, but for the slope down to the ground.
+    """
+    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
+    heights = np.minimum(freed(relief, wall_angle), -relief.depth - edge)
+    heights = np.where(nodes_of(relief.mask), heights, -relief.depth)
+    return Relief(relief.grid, heights, relief.mask, relief.depth)
+
+
+def _widened(relief: Relief, stock: Stock) -> tuple[Relief, tuple[float, float]]:
+    """Continue the ground over the whole stock, and say where its near left corner comes."""
+    grid = relief.grid
+    x0, y0 = grid.origin
+    x1, y1 = grid.to_xy(grid.rows, grid.cols)
+    margins = (stock.height - y0, y1, x0, stock.width - x1)
+    far, near, left, right = (max(0, ceil(m / grid.pitch - ROUNDING)) for m in margins)
+    rows, cols = grid.rows + far + near, grid.cols + left + right
+    pads = ((far, near), (left, right))
+    wide = Relief(
+        Grid(rows, cols, grid.pitch, (0.0, rows * grid.pitch)),
+        np.pad(relief.heights, pads, constant_values=-relief.depth),
+        np.pad(relief.mask, pads),
+        relief.depth,
+    )
+    return wide, (x0 - left * grid.pitch, y1 - near * grid.pitch)
+
+
+def make_plaque(
+    relief: Relief,
+    stock: Stock,
+    *,
+    wall_angle: float = 80.0,
+    tolerance: float = 0.02,
+    progress: Progress = silent,
+) -> Panel:
+    """Make the raised plaque of a sunken relief.
+
+    Parameters
+    ----------
+    relief : Relief
+    stock : Stock
+        The base: the figure rises from it by up to the relief's depth.
+    wall_angle : float, optional
+        That the relief was carved with, degrees; the plaque's is the same.
+    tolerance : float, optional
+        Largest vertical distance from `raised` at any node and pixel centre, mm.
+    progress : Progress, optional
+
+    Returns
+    -------
+    Panel
+        Z0 is where a figure that uses all its depth is highest; the ground lies
+        at -depth, the bottom below it by the stock's thickness.
+
+    Raises
+    ------
+    InputError
+        If the relief reaches beyond the stock, or the tolerance is no length.
+    """
+    whole = replace(stock, thickness=stock.thickness + relief.depth)
+    check(relief, whole)
+    wide, (x, y) = _widened(raised(relief, wall_angle), stock)
+    rows, cols = wide.grid.shape
+    block = Stock(cols * wide.grid.pitch, rows * wide.grid.pitch, whole.thickness)
+    panel = make_panel(wide, block, tolerance=tolerance, progress=progress)
+    sides = slab(replace(whole, thickness=whole.thickness + 2 * BEYOND))
+    solid = manifold_of(panel, "the plaque").translate((x, y, 0.0))
+    solid = checked(solid ^ sides.translate((0.0, 0.0, BEYOND)), "the trimmed plaque")
+    vertices, faces = arrays_of(solid)
+    tight, volume = is_watertight(faces), float(solid.volume())
+    return Panel(snapped(vertices), faces, tight, volume, panel.max_error_mm)
