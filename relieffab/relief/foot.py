@@ -12,7 +12,7 @@ from relieffab.relief.targets import Carving
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-SPARE = 0.5  # pixels that the arc is wider than the tip: its nodes lie on both sides of it
+LEAST = 0.5  # pixels: radius of an arc whose nodes lie on both sides of it
 
 
 def stand(floor: Floats, edge: Floats, slope: float, radius: float) -> Floats:
@@ -73,5 +73,5 @@ def carved(heights: Floats, figure: Bools, edge: Floats, pitch: float, carving: 
         np.where(figure, np.minimum(floor, 0.0), 0.0),
         np.minimum(closing(edge, pitch, tip), 0.0),
         slope,
-        carving.fillet + SPARE * pitch,
+        max(carving.fillet, LEAST * pitch),
     )
