@@ -5,7 +5,7 @@ import numpy as np
 
 from relieffab.errors import InputError, RelieffabError
 from relieffab.panel.deviate import deviations
-from relieffab.panel.edges import edge_keys, has_repeats
+from relieffab.panel.edges import edge_keys, has_repeats, plan_areas
 from relieffab.panel.model import Floats, Ints, Panel, Sinking, Surface
 from relieffab.panel.simplify import GROWN, distances, simplify
 from relieffab.panel.sinking import sink
@@ -82,10 +82,8 @@ def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
     col = (vertices[:, 0] - grid.origin[0]) / grid.pitch
     row = (grid.origin[1] - vertices[:, 1]) / grid.pitch
     places = np.stack([col, row, vertices[:, 2]], axis=1)
-    a, b, c = (places[faces[:, k], :2] for k in range(3))
-    u, v = b - a, c - a
     # Rows run against Y: what faces up turns from rows to columns.
-    up = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0
+    up = plan_areas(places, faces) < 0
     return float(deviations(h, places, faces[up], margin=BORDER).max(initial=0.0))
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relieffab.panel.model import Floats, Sinking
-from relieffab.panel.sinking import sink
+from relieffab.panel.sinking import margins, sink
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 
@@ -68,14 +68,13 @@ def _triangles(sinking: Sinking) -> tuple[Floats, Floats, Floats]:
 def _ends(sinking: Sinking, stock: Stock) -> tuple[Floats, Floats, Floats]:
     """Find the upright walls in which a relief ends at its grid's border, likewise."""
     grid, h = sinking.grid, sinking.heights
-    x0, y0 = grid.origin
-    x1, y1 = grid.to_xy(grid.rows, grid.cols)
+    far, near, left, right = (margin > ROUNDING for margin in margins(grid, stock))
     rows, cols = np.arange(grid.rows) + 0.5, np.arange(grid.cols) + 0.5
     sides = [
-        (y0 < stock.height - ROUNDING, h[0], 0.0, cols),
-        (y1 > ROUNDING, h[-1], float(grid.rows), cols),
-        (x0 > ROUNDING, h[:, 0], rows, 0.0),
-        (x1 < stock.width - ROUNDING, h[:, -1], rows, float(grid.cols)),
+        (far, h[0], 0.0, cols),
+        (near, h[-1], float(grid.rows), cols),
+        (left, h[:, 0], rows, 0.0),
+        (right, h[:, -1], rows, float(grid.cols)),
     ]
     areas, middles = [np.empty(0)], [np.empty((0, 2))]
     for stands, heights, row, col in sides:

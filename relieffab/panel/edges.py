@@ -1,8 +1,8 @@
-"""Edges of triangles, told apart by one number each."""
+"""Edges of triangles, told apart by one number each; and how triangles lie in plan."""
 
 import numpy as np
 
-from relieffab.panel.model import Ints
+from relieffab.panel.model import Floats, Ints
 
 
 def edge_keys(faces: Ints, *, reverse: bool = False) -> Ints:
@@ -26,3 +26,13 @@ def outline(faces: Ints) -> Ints:
     fresh = np.diff(either[order], prepend=-1) != 0
     alone = there[order[fresh & np.append(fresh[1:], True)[: len(fresh)]]]
     return np.stack(np.divmod(alone, int(faces.max(initial=0)) + 1), axis=1)
+
+
+def plan_areas(vertices: Floats, faces: Ints) -> Floats:
+    """Give twice the area of each triangle seen along its third axis, (f,).
+
+    More than 0 where it turns from the first axis to the second.
+    """
+    a, b, c = (vertices[faces[:, k], :2] for k in range(3))
+    u, v = b - a, c - a
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]  # type: ignore[no-any-return]

@@ -12,6 +12,7 @@ import numpy as np
 
 from relieffab.errors import InputError
 from relieffab.panel.carve import checked, is_watertight
+from relieffab.panel.edges import plan_areas
 from relieffab.panel.model import Floats, Panel
 from relieffab.panel.solid import arrays_of, manifold_of, snapped
 
@@ -47,10 +48,8 @@ def outer_size(size: tuple[float, float], thickness: float, draft: float) -> tup
 
 
 def _check_rectangle(panel: Panel, low: Floats, high: Floats) -> None:
-    corners = panel.vertices[panel.faces]
-    back = (corners[:, :, 2] < low[2] + ROUNDING).all(axis=1)
-    u, v = corners[back, 1, :2] - corners[back, 0, :2], corners[back, 2, :2] - corners[back, 0, :2]
-    area = abs(float((u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum())) / 2
+    back = (panel.vertices[panel.faces, 2] < low[2] + ROUNDING).all(axis=1)
+    area = abs(float(plan_areas(panel.vertices, panel.faces[back]).sum())) / 2
     whole = float(np.prod((high - low)[:2]))
     if abs(area - whole) > ROUNDING * whole:
         raise InputError(

@@ -14,7 +14,7 @@ from scipy import ndimage
 from relieffab.grid import Grid
 from relieffab.panel.carve import checked, is_watertight, make_panel, slab
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.sinking import check
+from relieffab.panel.sinking import check, margins
 from relieffab.panel.solid import arrays_of, manifold_of, snapped
 from relieffab.progress import Progress, silent
 from relieffab.relief.edge import wall
@@ -88,10 +88,9 @@ def raised(relief: Relief, wall_angle: float = 80.0) -> Relief:
 def _widened(relief: Relief, stock: Stock) -> tuple[Relief, tuple[float, float]]:
     """Continue the ground over the whole stock, and say where its near left corner comes."""
     grid = relief.grid
-    x0, y0 = grid.origin
-    x1, y1 = grid.to_xy(grid.rows, grid.cols)
-    margins = (stock.height - y0, y1, x0, stock.width - x1)
-    far, near, left, right = (max(0, ceil(m / grid.pitch - ROUNDING)) for m in margins)
+    far, near, left, right = (
+        max(0, ceil(margin / grid.pitch - ROUNDING)) for margin in margins(grid, stock)
+    )
     rows, cols = grid.rows + far + near, grid.cols + left + right
     pads = ((far, near), (left, right))
     wide = Relief(
@@ -100,7 +99,7 @@ def _widened(relief: Relief, stock: Stock) -> tuple[Relief, tuple[float, float]]
         np.pad(relief.mask, pads),
         relief.depth,
     )
-    return wide, (x0 - left * grid.pitch, y1 - near * grid.pitch)
+    return wide, grid.to_xy(grid.rows + near, -left)
 
 
 def make_plaque(

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.panel.deviate import deviations
-from relieffab.panel.edges import edge_keys, has_repeats, outline
+from relieffab.panel.edges import edge_keys, has_repeats, outline, plan_areas
 from relieffab.panel.model import Floats, Ints, Sinking, Surface
 from relieffab.progress import Progress, silent
 
@@ -46,9 +46,7 @@ def folded(surface: Surface) -> Bools:
     over each point of it exactly once: the degree of its projection is 1, and
     no triangle counts negatively.
     """
-    a, b, c = (surface.vertices[surface.faces[:, k], :2] for k in range(3))
-    u, v = b - a, c - a
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] <= 0  # type: ignore[no-any-return]
+    return plan_areas(surface.vertices, surface.faces) <= 0  # type: ignore[no-any-return]
 
 
 def _places(surface: Surface) -> NDArray[np.complex128]:

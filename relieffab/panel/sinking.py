@@ -15,7 +15,7 @@ THINNEST_RIM = 0.75
 ROUNDING = 1e-6
 
 
-def _margins(grid: Grid, stock: Stock) -> tuple[float, float, float, float]:
+def margins(grid: Grid, stock: Stock) -> tuple[float, float, float, float]:
     """Give the stock's rim around the grid: far, near, left, right, mm."""
     x0, y0 = grid.origin
     x1, y1 = grid.to_xy(grid.rows, grid.cols)
@@ -37,7 +37,7 @@ def check(relief: Relief, stock: Stock) -> None:
             found=f"{relief.depth:g} mm",
             hint="a smaller depth or thicker stock",
         )
-    overhang = -min(_margins(relief.grid, stock))
+    overhang = -min(margins(relief.grid, stock))
     if overhang > ROUNDING:
         width, height = (n * relief.grid.pitch for n in reversed(relief.grid.shape))
         raise InputError(
@@ -74,7 +74,7 @@ def sink(relief: Relief, stock: Stock) -> Sinking:
     check(relief, stock)
     grid = relief.grid
     rim = THINNEST_RIM * grid.pitch
-    far, near, left, right = (int(margin < rim) for margin in _margins(grid, stock))
+    far, near, left, right = (int(margin < rim) for margin in margins(grid, stock))
     origin = grid.to_xy(-float(far), -float(left))
     wider = Grid(grid.rows + far + near, grid.cols + left + right, grid.pitch, origin)
     heights = np.pad(relief.heights, ((far, near), (left, right)), mode="edge")

@@ -4,6 +4,7 @@ import manifold3d
 import numpy as np
 
 from relieffab.panel.carve import checked
+from relieffab.panel.edges import plan_areas
 from relieffab.panel.model import Floats, Ints, Panel
 
 ROUNDING = 1e-7  # mm
@@ -45,7 +46,5 @@ def snapped(vertices: Floats) -> Floats:
 
 def lowest_facing_up(panel: Panel) -> float:
     """Find the Z of the lowest corner of what can be seen from above, mm."""
-    corners = panel.vertices[panel.faces]
-    u, v = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
-    up = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
-    return float(corners[up, :, 2].min())
+    up = plan_areas(panel.vertices, panel.faces) > 0
+    return float(panel.vertices[panel.faces[up], 2].min())

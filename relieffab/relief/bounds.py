@@ -69,3 +69,10 @@ def move(h: Floats, step: Floats, size: float, bounds: tuple[NDArray[Any], float
     out = np.empty_like(h)
     _move(h, step, size, bounds[0], bounds[1], out)
     return out
+
+
+def within(
+    guess: NDArray[np.floating], bounds: tuple[NDArray[Any], float], figure: Bools
+) -> Floats:
+    """Bring a guess within the bounds, in double precision; 0 where nothing may move."""
+    return np.where(figure, np.clip(guess.astype(float), *bounds), 0.0)

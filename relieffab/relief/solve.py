@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
-from relieffab.relief.bounds import deepest
+from relieffab.relief.bounds import deepest, within
 from relieffab.relief.descend import Descent, descend
 from relieffab.relief.edge import wall
 from relieffab.relief.energy.terms import Terms
@@ -73,10 +73,6 @@ def problem(
     return terms_of(part, carving, fitted, (_lowest(place.take(edge), carving.depth), 0.0)), place
 
 
-def _within(terms: Terms, guess: NDArray[np.floating]) -> Floats:
-    return np.where(terms.figure, np.clip(guess, *terms.bounds), 0.0)
-
-
 def _give_up(
     terms: Terms, h: Floats, edge: Floats, carving: Carving, tolerance: float
 ) -> tuple[Floats, Descent]:
@@ -90,7 +86,9 @@ def _give_up(
         short = reached - np.maximum(h, edge) > SHALLOW * carving.depth
         low = np.where(short, np.maximum(low, np.minimum(reached, high)), low).astype(np.float32)
         terms = replace(terms, bounds=(low, high))
-        h, descent = descend(terms, _within(terms, h), tolerance=tolerance, most=STEPS)
+        h, descent = descend(
+            terms, within(h, terms.bounds, terms.figure), tolerance=tolerance, most=STEPS
+        )
         if not short.any():
             break
     return h, descent
@@ -133,11 +131,12 @@ def solve_heights(
     for level in reversed(lattices):
         finest = level is layers
         terms, place = problem(level, carving, fitted, edge if finest else None)
-        guess, shape = _within(terms, terms.form), level.grid.node_shape
+        guess, shape = within(terms.form, terms.bounds, terms.figure), level.grid.node_shape
         if start:
-            guess = _within(terms, place.take(start.heights))
+            guess = within(place.take(start.heights), terms.bounds, terms.figure)
         elif figure is not None:
-            guess = _within(terms, terms.form + place.take(refine(above, figure, shape)))
+            finer = terms.form + place.take(refine(above, figure, shape))
+            guess = within(finer, terms.bounds, terms.figure)
         solved, descent = descend(
             terms,
             guess,

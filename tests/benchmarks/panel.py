@@ -24,9 +24,8 @@ import manifold3d
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
+from solver import layers_of
 
-from relieffab import View, guess_up, read_mesh, scarab
-from relieffab.layers.make import make_layers
 from relieffab.panel.carve import make_panel
 from relieffab.panel.deviate import deviations
 from relieffab.panel.export import write_stl
@@ -45,11 +44,7 @@ SIZE, THICKNESS, DEPTH, TOLERANCE = (120.0, 90.0), 12.0, 4.0, 0.02
 
 def relief_of(path: str | None, resolution: tuple[int, int]) -> Relief:
     """Carve the model from the front."""
-    mesh = read_mesh(path) if path else scarab()
-    up = guess_up(mesh) if path else "z"
-    view = View(0.0, 0.0, 0.0, up, 0.0)
-    layers = make_layers(mesh, view, size=SIZE, resolution=resolution)
-    return make_relief(layers, Carving(depth=DEPTH))[0]
+    return make_relief(layers_of(path, SIZE, resolution), Carving(depth=DEPTH))[0]
 
 
 def written(relief: Relief, folder: Path) -> tuple[Panel, float]:

@@ -20,14 +20,15 @@ from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
+from lines import models
 from numpy.typing import NDArray
 from scipy import optimize, sparse
 from scipy.sparse import linalg
 
-from relieffab import View, guess_up, read_mesh, scarab
+from relieffab import named_view
 from relieffab.layers.make import make_layers
 from relieffab.layers.model import Layers
-from relieffab.relief.bounds import hold, move
+from relieffab.relief.bounds import hold, move, within
 from relieffab.relief.edge import wall
 from relieffab.relief.energy.linearise import linearise
 from relieffab.relief.energy.tangent import Tangent
@@ -48,9 +49,8 @@ STEPS = 60
 
 def layers_of(path: str | None, size: tuple[float, float], resolution: tuple[int, int]) -> Layers:
     """See the model from the front."""
-    mesh = read_mesh(path) if path else scarab()
-    up = guess_up(mesh) if path else "z"
-    return make_layers(mesh, View(0.0, 0.0, 0.0, up, 0.0), size=size, resolution=resolution)
+    mesh, up = next(models([path] if path else []))
+    return make_layers(mesh, named_view("front", up), size=size, resolution=resolution)
 
 
 def timed(
@@ -172,7 +172,7 @@ def peers(path: str | None, resolution: tuple[int, int] = (1024, 768)) -> None:
     seconds, solution = timed(layers, carving)
     goal = solution.energy["total"] * (1 + SAME)
     terms, _ = problem(layers, carving, solution.fitted)
-    guess = np.where(terms.figure, np.clip(terms.form.astype(float), *terms.bounds), 0.0)
+    guess = within(terms.form, terms.bounds, terms.figure)
     nodes = int(terms.figure.sum())
     print(f"{resolution[0]} x {resolution[1]}, {nodes} nodes; energy {goal:.6g}")
     print(f"  {'relieffab, all of it':<34}{seconds:9.2f} s")

@@ -1,6 +1,6 @@
 import numpy as np
 
-from relieffab.relief.bounds import hold, move
+from relieffab.relief.bounds import hold, move, within
 
 LOW = np.array([[-2.0, -2.0, -1.0, -np.inf, -2.0, -2.0]], np.float32)
 
@@ -64,3 +64,11 @@ def test_a_move_is_the_clipped_sum():
     h, step = rng.normal(size=(2, 20, 30))
     low = rng.normal(size=h.shape).astype(np.float32) - 1
     np.testing.assert_allclose(move(h, step, 0.3, (low, 0.7)), np.clip(h + 0.3 * step, low, 0.7))
+
+
+def test_a_guess_is_brought_within_the_bounds_and_the_figure():
+    guess = np.array([[-3.0, -1.0, -1.5, -9.0, 0.5, -1.0]], np.float32)
+    figure = np.array([[True, True, True, True, True, False]])
+    found = within(guess, (LOW, 0.0), figure)
+    np.testing.assert_array_equal(found, [[-2, -1, -1, -9, 0, 0]])
+    assert found.dtype == np.float64

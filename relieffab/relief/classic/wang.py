@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.layers.model import Layers
-from relieffab.relief.bounds import deepest, hold, move
+from relieffab.relief.bounds import deepest, hold, move, within
 from relieffab.relief.classic.figure import extent, model_slopes
 from relieffab.relief.classic.gradient import KNEE, attenuate
 from relieffab.relief.classic.linear import linear
@@ -78,7 +78,7 @@ def wang(layers: Layers, depth: float) -> Floats:
     """
     figure, place = cropped(layers)
     terms = _terms(figure, depth)
-    heights = np.where(terms.figure, np.clip(terms.form.astype(float), *terms.bounds), 0.0)
+    heights = within(terms.form, terms.bounds, terms.figure)
     for _ in range(ROUNDS):
         here = linearise(terms, heights)
         free, pull, norm = hold(here.gradient, heights, terms.bounds, terms.figure)
