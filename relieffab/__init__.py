@@ -15,6 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "cutter": ["Cutter"],
         "errors": ["FindingsError", "InputError", "MachineError", "RelieffabError"],
+        "fittings": ["Edge", "Frame", "Hole", "Keyhole"],
         "gcode.estimate": ["estimate"],
         "gcode.read": ["read_program"],
         "gcode.verify": ["Verification", "verify"],

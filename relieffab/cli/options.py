@@ -11,15 +11,20 @@ from cyclopts import Parameter
 from relieffab.errors import InputError
 from relieffab.job.load import from_environment, gather
 from relieffab.job.report import read_report
-from relieffab.job.settings import TABLE, Chosen, Setting, resolve
+from relieffab.job.settings import Chosen, resolve
+from relieffab.job.table import TABLE, Setting
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
 TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
 TEMPLATE_SETTINGS = ("paper",)
+STOCK_SETTINGS = (
+    "outline", "corner", "frame", "frame_height", "frame_edge", "holes", "hole", "countersink",
+    "keyholes",
+)  # fmt: skip
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (
-    "depth", "method", "thickness", *PANEL_SETTINGS, *TEMPLATE_SETTINGS,
+    "depth", "method", "thickness", *STOCK_SETTINGS, *PANEL_SETTINGS, *TEMPLATE_SETTINGS,
     *(name for name in TOOLPATH_SETTINGS if name != "lines"),
 )  # fmt: skip
 

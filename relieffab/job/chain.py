@@ -1,8 +1,7 @@
 """The stages of a job, each writing its files into a folder and saying what they are."""
 
 import hashlib
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.job import solids
 from relieffab.job.settings import Job
+from relieffab.job.stocks import machine_of, stock_of
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.svg import strokes_to_svg
 from relieffab.layers.make import layers_of
@@ -21,15 +21,14 @@ from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
-from relieffab.panel.stock import CadUnavailableError, finish_step, start_step
+from relieffab.panel.sinking import check_clear
 from relieffab.picture import panel_picture, png8, png16, smaller
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.png import to_png
 from relieffab.relief.store import to_tiff
 from relieffab.relief.targets import Carving
-from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import Settings, plan
@@ -38,11 +37,6 @@ Part = dict[str, Any]
 
 SCARAB_UP = "y"  # of the model carved where no file is named
 THUMBNAIL = 512  # pixels wide
-
-
-def stock_of(job: Job) -> Stock:
-    """Return the slab a job is carved from."""
-    return Stock(job.size[0], job.size[1], job.thickness)
 
 
 def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
@@ -78,7 +72,7 @@ def check(job: Job) -> None:
     profiles.material(job.material)
     solids.check(job)
     cutters = cutters_of(job)
-    check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
+    check_tools(machine_of(job), cutters, stock_of(job), job.depth)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 
@@ -111,8 +105,9 @@ def model_part(mesh: Mesh, path: Path | None) -> Part:
 
 def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
     """See the model; the part is report.json's `view`."""
-    grid = Grid.on_panel(job.size, job.resolution)
-    placed = place(mesh, view, job.size, margin=job.margin)
+    grid, stock = Grid.on_panel(job.size, job.resolution), stock_of(job)
+    framed = stock.frame.width if stock.frame else 0.0
+    placed = place(mesh, view, job.size, margin=framed + job.margin)
     drawing = Drawing(
         kinds=job.line_kinds,
         detail=job.line_detail,
@@ -121,6 +116,7 @@ def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
         spread=job.line_spread,
     )
     layers = layers_of(placed, grid, drawing=drawing)
+    check_clear(nodes_of(layers.mask), grid, stock, job.depth)
     return layers, {
         "azimuth_deg": view.azimuth,
         "elevation_deg": view.elevation,
@@ -172,11 +168,6 @@ def write_relief(relief: Relief, folder: Path) -> str:
     return hashlib.sha256(packed).hexdigest()
 
 
-def make_solid(relief: Relief, job: Job, progress: Progress = silent) -> tuple[Panel, Part]:
-    """Make the solid a job asks for, and what there is to say of it alone."""
-    return solids.make(relief, stock_of(job), job, progress)
-
-
 def write_solid(
     solid: Panel, job: Job, folder: Path, *, name: str, picture: bytes | None = None
 ) -> Part:
@@ -207,22 +198,6 @@ def write_solid(
     }
 
 
-@contextmanager
-def stock_file(job: Job, folder: Path) -> Iterator[Part]:
-    """Write stock.step beside whatever else is done; the part says whether it came to be."""
-    part: Part = {"file": None, "note": ""}
-    process = start_step(stock_of(job), folder / "stock.step")
-    try:
-        yield part
-        finish_step(process)
-        part["file"] = "stock.step"
-    except CadUnavailableError as missing:
-        part["note"] = str(missing)
-    finally:
-        process.kill()
-        process.wait()
-
-
 def plan_paths(
     relief: Relief, strokes: Sequence[Stroke], job: Job, progress: Progress = silent
 ) -> tuple[Toolpath, ...]:
@@ -230,7 +205,7 @@ def plan_paths(
     return plan(
         relief,
         strokes,
-        profiles.machine(job.machine),
+        machine_of(job),
         profiles.material(job.material),
         cutters=cutters_of(job),
         stock=stock_of(job),

@@ -7,6 +7,7 @@ from typing import Any
 
 from relieffab.errors import InputError
 from relieffab.job.settings import Job
+from relieffab.job.stocks import stock_of
 from relieffab.layers.lines.svg import strokes_from_svg
 from relieffab.layers.model import Stroke
 from relieffab.relief.model import Relief
@@ -36,7 +37,7 @@ def write_template(
 
     The part is report.json's `template`.
     """
-    template = make_template(relief, strokes, job.size, line_width=job.line_width, name=name)
+    template = make_template(relief, strokes, stock_of(job), line_width=job.line_width, name=name)
     (folder / "template.svg").write_text(to_svg(template), encoding="utf-8")
     (folder / "contours.svg").write_text(to_svg(replace(template, strokes=())), encoding="utf-8")
     (folder / "template.pdf").write_bytes(to_pdf(template, job.paper))

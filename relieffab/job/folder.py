@@ -9,6 +9,7 @@ from itertools import chain
 from pathlib import Path
 
 from relieffab.errors import InputError
+from relieffab.panel.blank import FRAME, STOCK
 from relieffab.panel.formats import FORMATS
 
 REPORT = "report.json"
@@ -16,7 +17,6 @@ REPORT = "report.json"
 # What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
-STOCK = "stock.step"
 SOLIDS = {
     name: (
         *(f"{name}.{kind}" for kind in FORMATS),
@@ -27,7 +27,7 @@ SOLIDS = {
 PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
 ALL = (
-    *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK),
+    *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK, FRAME),
     *(*PROGRAMS, *TEMPLATE, "report.html"),
 )
 

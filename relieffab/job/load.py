@@ -8,7 +8,8 @@ from typing import Any
 import platformdirs
 
 from relieffab.errors import InputError
-from relieffab.job.settings import SETTINGS, Chosen, resolve
+from relieffab.job.settings import Chosen, resolve
+from relieffab.job.table import SETTINGS
 
 PREFIX = "RELIEFFAB_"
 

@@ -15,8 +15,8 @@ from relieffab.gcode.estimate import estimate
 from relieffab.gcode.read import read_program
 from relieffab.gcode.verify import Verification, verify
 from relieffab.gcode.write import write_program
-from relieffab.job.chain import stock_of
 from relieffab.job.settings import Job
+from relieffab.job.stocks import machine_of, stock_of
 from relieffab.machine import Machine, Material
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
@@ -38,7 +38,7 @@ def write(
         report.json's `programs`, `machine`, `material`, and `slab`: enough to
         judge the programs anywhere, whatever the profiles there say.
     """
-    machine, stock = profiles.machine(job.machine), stock_of(job)
+    machine, stock = machine_of(job), stock_of(job)
     material = profiles.material(job.material)
     notes = material_notes(material, paths)
     header = {"model": report["model"]["name"], "material": material.title, **_numbered(notes)}
@@ -102,7 +102,7 @@ def judge(relief: Relief, report: Mapping[str, Any], folder: Path) -> Verificati
     """
     try:
         machine = Machine(**{**report["machine"], **_tuples(report["machine"])})
-        stock = Stock(**{**report["slab"], "work_zero": tuple(report["slab"]["work_zero"])})
+        stock = Stock.of(report["slab"])
         cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
         files = [folder / str(part["file"]) for part in report["programs"]]
     except (KeyError, TypeError, ValueError) as fault:

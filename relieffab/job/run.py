@@ -12,15 +12,16 @@ from relieffab.job.folder import (
     ALL,
     PROGRAMS,
     SOLIDS,
-    STOCK,
     TEMPLATE,
     check_folder,
     finished_together,
 )
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of
+from relieffab.job.stocks import stock_files
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
+from relieffab.panel.blank import FRAME, STOCK, Drafting
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
@@ -77,13 +78,20 @@ def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[
     return layers, relief
 
 
-def _carve(relief: Relief, job: Job, report: Report, folder: Path, progress: Progress) -> None:
+def _carve(
+    relief: Relief,
+    drafting: Drafting,
+    job: Job,
+    report: Report,
+    folder: Path,
+    progress: Progress,
+) -> None:
     """Make the job's solid and write it.
 
     The panel's picture goes into its 3MF, too; other solids leave the picture that is there.
     """
     with _timed(report, job.solid, progress):
-        solid, facts = chain.make_solid(relief, job, progress)
+        solid, facts = solids.make(relief, drafting, job, progress)
     panel, small = solid if job.solid == "panel" else None, None
     if panel or "picture" not in report:
         with _timed(report, "picture", progress):
@@ -156,10 +164,10 @@ def make(
     with (
         finished_together(folder, ALL) as scratch,
         _reported(report, scratch),
-        chain.stock_file(job, scratch) as report["stock"],
+        stock_files(job, scratch) as (drafting, report["stock"]),
     ):
         layers, relief = _solve(job, report, scratch, progress)
-        _carve(relief, job, report, scratch, progress)
+        _carve(relief, drafting, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
             paths = chain.plan_paths(relief, layers.strokes, job, progress)
         _prove(paths, relief, job, report, scratch, progress)
@@ -201,11 +209,11 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     relief = read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
-        finished_together(folder, (*SOLIDS[job.solid], STOCK)) as scratch,
+        finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
         _reported(report, scratch),
-        chain.stock_file(job, scratch) as report["stock"],
+        stock_files(job, scratch) as (drafting, report["stock"]),
     ):
-        _carve(relief, job, report, scratch, progress)
+        _carve(relief, drafting, job, report, scratch, progress)
     return report
 
 

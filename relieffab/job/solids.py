@@ -3,7 +3,10 @@
 from pathlib import Path
 from typing import Any
 
+from relieffab.errors import InputError
 from relieffab.job.settings import Job
+from relieffab.job.stocks import stock_of
+from relieffab.panel.blank import Drafting
 from relieffab.panel.carve import make_panel
 from relieffab.panel.draft import check_draft
 from relieffab.panel.export import write_stl
@@ -28,6 +31,13 @@ def check(job: Job) -> None:
         If walls have no such draft, the bed is too small, or the slab too thin
         for tongues.
     """
+    if not stock_of(job).plain and (job.solid == "mould" or job.bed is not None):
+        what = "has a mould" if job.solid == "mould" else "comes in parts"
+        raise InputError(
+            f"only a plain rectangular panel {what}",
+            found="an outline, a frame or holes",
+            where="solid" if job.solid == "mould" else "bed",
+        )
     outer = outer_size(job.size, job.thickness, job.draft)
     size, thickness, floor = {
         "panel": (job.size, job.thickness, job.thickness - job.depth),
@@ -39,16 +49,17 @@ def check(job: Job) -> None:
 
 
 def make(
-    relief: Relief, stock: Stock, job: Job, progress: Progress = silent
+    relief: Relief, drafting: Drafting, job: Job, progress: Progress = silent
 ) -> tuple[Panel, Facts]:
     """Make the solid that a job asks for, and what is to be said of a mould."""
-    tolerance = job.mesh_tolerance
+    tolerance, stock = job.mesh_tolerance, drafting.stock
     if job.solid == "plaque":
         angle = job.wall_angle
         return make_plaque(
             relief, stock, wall_angle=angle, tolerance=tolerance, progress=progress
         ), {}
-    panel = make_panel(relief, stock, tolerance=tolerance, progress=progress)
+    blank = drafting.blank()
+    panel = make_panel(relief, stock, blank=blank, tolerance=tolerance, progress=progress)
     if job.solid == "panel":
         return panel, {}
     return make_mould(panel, job.draft), draft_facts(relief, stock, job)

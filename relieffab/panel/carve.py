@@ -1,14 +1,20 @@
 """The slab minus the space above the relief: Relief and Stock to Panel."""
 
+from dataclasses import replace
+
 import manifold3d
 import numpy as np
+from numpy.typing import NDArray
 
 from relieffab.errors import InputError, RelieffabError
+from relieffab.panel.blank import Blank, make_blank
+from relieffab.panel.cad import CHORD
 from relieffab.panel.deviate import deviations
-from relieffab.panel.edges import edge_keys, has_repeats, plan_areas
+from relieffab.panel.edges import plan_areas
 from relieffab.panel.model import Floats, Ints, Panel, Sinking, Surface
 from relieffab.panel.simplify import GROWN, distances, simplify
 from relieffab.panel.sinking import sink
+from relieffab.panel.solid import ROUNDING, checked, manifold_of, panel_of
 from relieffab.panel.space import CLEARANCE, clear_of_face, part_touching, solid_above
 from relieffab.panel.triangulate import triangulate
 from relieffab.progress import Progress, silent
@@ -17,66 +23,41 @@ from relieffab.stock import Stock
 
 # Shares of the tolerance kept back for peaks, and for sheets, that must not touch.
 RESERVE = 0.02
-# Rounding of the modeller, mm: nearer to the face is the face.
-ROUNDING = 1e-7
 # Pixels from the grid's border where a panel's height is not measured.
 BORDER = 1e-6
 
 
-def checked(solid: manifold3d.Manifold, what: str) -> manifold3d.Manifold:
-    """Return a solid, or raise what the solid modeller says against it.
-
-    Manifold raises nothing: a bad input becomes an empty solid with a status.
-
-    Raises
-    ------
-    RelieffabError
-        With the modeller's own word.
-    """
-    status = solid.status()
-    if status != manifold3d.Error.NoError:
-        raise RelieffabError(f"{what} is not a solid", expected="NoError", found=status.name)
-    if solid.is_empty():
-        raise RelieffabError(f"{what} is empty", expected="a volume", found="0 mm³")
-    return solid
-
-
-def _solid(vertices: Floats, faces: Ints, what: str) -> manifold3d.Manifold:
-    mesh = manifold3d.Mesh64(
-        np.ascontiguousarray(vertices, np.float64), np.ascontiguousarray(faces, np.uint64)
-    )
-    return checked(manifold3d.Manifold(mesh), what)
-
-
-def slab(stock: Stock) -> manifold3d.Manifold:
-    """Make the uncut slab, its face at Z0."""
-    size = (stock.width, stock.height, stock.thickness)
-    box = manifold3d.Manifold.cube(size).translate((0.0, 0.0, -stock.thickness))
-    return checked(box, "the slab")
-
-
-def carve(stock: Stock, surface: Surface) -> manifold3d.Manifold:
-    """Take the space above a surface out of the slab.
+def carve(blank: Blank, surface: Surface) -> manifold3d.Manifold:
+    """Take the space above a surface out of the uncut stock.
 
     Raises
     ------
     RelieffabError
         If either, or what is left, is not a solid.
     """
-    space = _solid(*solid_above(surface), "the space above the relief")
-    return checked(slab(stock) - space, "the carved panel")
+    stock = manifold_of(blank.vertices, blank.faces, "the stock")
+    if len(surface.faces) == 0:
+        return stock
+    space = manifold_of(*solid_above(surface), "the space above the relief")
+    return checked(stock - space, "the carved panel")
 
 
-def is_watertight(faces: Ints) -> bool:
-    """Say whether every edge is walked exactly once each way."""
-    there, back = edge_keys(faces), edge_keys(faces, reverse=True)
-    return not has_repeats(there) and np.array_equal(np.sort(there), np.sort(back))
+def _of_face(vertices: Floats, faces: Ints, stock: Stock) -> NDArray[np.bool_]:
+    """Tell triangles of the level face, and of what is cut into it, from frame, holes and sides."""
+    x, y, z = vertices.T
+    # Keyholes have shoulders that face up; the sides reach to the back.
+    back = max((key.depth for key in stock.keyholes), default=ROUNDING) - stock.thickness
+    near = stock.on_face(x, y, -CHORD) & (z <= ROUNDING) & (z > back)
+    # What stands upright along a rim has all its corners there.
+    away = stock.on_face(x, y, CHORD)
+    return np.asarray(near[faces].all(axis=1) & away[faces].any(axis=1))
 
 
-def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
+def largest_error(vertices: Floats, faces: Ints, relief: Relief, stock: Stock) -> float:
     """Measure a panel against the relief, at every point of its face and the cut's floor, mm.
 
     On the grid's border there may be an upright wall, where a panel has no one height.
+    Frame and holes are not looked at.
     """
     grid, h = relief.grid, relief.heights
     col = (vertices[:, 0] - grid.origin[0]) / grid.pitch
@@ -84,21 +65,9 @@ def largest_error(vertices: Floats, faces: Ints, relief: Relief) -> float:
     places = np.stack([col, row, vertices[:, 2]], axis=1)
     # Rows run against Y: what faces up turns from rows to columns.
     up = plan_areas(places, faces) < 0
+    if not stock.plain:
+        up &= _of_face(vertices, faces, stock)
     return float(deviations(h, places, faces[up], margin=BORDER).max(initial=0.0))
-
-
-def _finish(solid: manifold3d.Manifold, relief: Relief, error: float) -> Panel:
-    mesh = solid.to_mesh64()
-    vertices = np.array(mesh.vert_properties[:, :3], np.float64)
-    vertices[np.abs(vertices[:, 2]) < ROUNDING, 2] = 0.0
-    faces = np.array(mesh.tri_verts, np.int64)
-    return Panel(
-        vertices,
-        faces,
-        is_watertight(faces),
-        float(solid.volume()),
-        max(error, largest_error(vertices, faces, relief)),
-    )
 
 
 def _surface(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Surface, float]:
@@ -114,7 +83,12 @@ def _surface(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Su
 
 
 def make_panel(
-    relief: Relief, stock: Stock, *, tolerance: float = 0.02, progress: Progress = silent
+    relief: Relief,
+    stock: Stock,
+    *,
+    blank: Blank | None = None,
+    tolerance: float = 0.02,
+    progress: Progress = silent,
 ) -> Panel:
     """Carve a relief into a slab.
 
@@ -123,6 +97,8 @@ def make_panel(
     relief : Relief
         One with nothing below the face leaves the plain slab.
     stock : Stock
+    blank : Blank, optional
+        The stock's triangles, where they are at hand: one with a shape takes cadquery.
     tolerance : float, optional
         Largest vertical distance between panel and relief at any point, mm.
     progress : Progress, optional
@@ -136,6 +112,8 @@ def make_panel(
     ------
     InputError
         If the tolerance is not a length, or the stock cannot hold the relief.
+    CadUnavailableError
+        If the stock has a shape and cadquery is not there.
     RelieffabError
         If the result breaks the tolerance or is no solid; neither should be.
     """
@@ -148,8 +126,9 @@ def make_panel(
     sinking = sink(relief, stock)
     surface, error = _surface(sinking, tolerance, progress)
     progress("carve", 0, 1)
-    solid = carve(stock, surface) if len(surface.faces) else slab(stock)
-    panel = _finish(solid, relief, error)
+    panel = panel_of(carve(blank or make_blank(stock), surface), error)
+    found = largest_error(panel.vertices, panel.faces, relief, stock)
+    panel = replace(panel, max_error_mm=max(error, found))
     progress("carve", 1, 1)
     return accept(panel, tolerance)
 

@@ -11,16 +11,14 @@ import manifold3d
 import numpy as np
 
 from relieffab.errors import InputError
-from relieffab.panel.carve import checked, is_watertight
 from relieffab.panel.edges import plan_areas
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.solid import arrays_of, manifold_of, snapped
+from relieffab.panel.solid import ROUNDING, checked, manifold_of, panel_of
 
 # Material under the floor, and around at the brim, mm.
 FLOOR, RIM = 4.0, 6.0
 MOST = 45.0  # degrees of draft
 BEYOND = 1.0  # mm that the cavity is cut higher than the brim
-ROUNDING = 1e-7
 
 
 def check_angle(draft: float) -> None:
@@ -111,15 +109,12 @@ def make_mould(panel: Panel, draft: float = 3.0) -> Panel:
     check_angle(draft)
     low, high = panel.vertices.min(axis=0), panel.vertices.max(axis=0)
     _check_rectangle(panel, low, high)
-    facts = (panel.watertight, panel.volume_mm3, panel.max_error_mm)
-    cavity = manifold_of(Panel(leaning(panel, draft, BEYOND), panel.faces, *facts), "the cavity")
+    cavity = manifold_of(leaning(panel, draft, BEYOND), panel.faces, "the cavity")
     size = (float(high[0] - low[0]), float(high[1] - low[1]))
     outer = np.array([*outer_size(size, float(high[2] - low[2]), draft), high[2] - low[2] + FLOOR])
     corner = np.array([*(low + high)[:2] / 2 - outer[:2] / 2, low[2]])
     block = manifold3d.Manifold.cube(tuple(outer)).translate(tuple(corner))
     solid = checked(block - cavity, "the mould")
-    vertices, faces = arrays_of(solid)
     # Half a turn about Y lays it on its floor; a reflection would cast the panel's image.
-    turned = vertices * [-1.0, 1.0, -1.0] + [corner[0] + outer[0], -corner[1], high[2]]
-    tight, volume = is_watertight(faces), float(solid.volume())
-    return Panel(snapped(turned), faces, tight, volume, panel.max_error_mm)
+    place = (float(corner[0] + outer[0]), float(-corner[1]), float(high[2]))
+    return panel_of(solid.scale((-1.0, 1.0, -1.0)).translate(place), panel.max_error_mm)

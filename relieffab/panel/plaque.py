@@ -11,11 +11,13 @@ from math import ceil
 import numpy as np
 from scipy import ndimage
 
+from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.panel.carve import checked, is_watertight, make_panel, slab
+from relieffab.panel.blank import make_blank
+from relieffab.panel.carve import make_panel
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.sinking import check, margins
-from relieffab.panel.solid import arrays_of, manifold_of, snapped
+from relieffab.panel.sinking import check, check_clear, margins
+from relieffab.panel.solid import checked, manifold_of, panel_of
 from relieffab.progress import Progress, silent
 from relieffab.relief.edge import wall
 from relieffab.relief.model import Relief, nodes_of
@@ -132,17 +134,21 @@ def make_plaque(
     Raises
     ------
     InputError
-        If the relief reaches beyond the stock, or the tolerance is no length.
+        If the relief reaches beyond the stock, the stock has a frame or countersinks,
+        or the tolerance is no length.
     """
+    if stock.frame or any(hole.countersink for hole in stock.holes):
+        raise InputError(
+            "a plaque has no frame and no countersinks", hint="plain --holes, or keyholes"
+        )
     whole = replace(stock, thickness=stock.thickness + relief.depth)
     check(relief, whole)
+    check_clear(nodes_of(relief.mask), relief.grid, stock, 0.0)
     wide, (x, y) = _widened(raised(relief, wall_angle), stock)
     rows, cols = wide.grid.shape
     block = Stock(cols * wide.grid.pitch, rows * wide.grid.pitch, whole.thickness)
     panel = make_panel(wide, block, tolerance=tolerance, progress=progress)
-    sides = slab(replace(whole, thickness=whole.thickness + 2 * BEYOND))
-    solid = manifold_of(panel, "the plaque").translate((x, y, 0.0))
-    solid = checked(solid ^ sides.translate((0.0, 0.0, BEYOND)), "the trimmed plaque")
-    vertices, faces = arrays_of(solid)
-    tight, volume = is_watertight(faces), float(solid.volume())
-    return Panel(snapped(vertices), faces, tight, volume, panel.max_error_mm)
+    tall = make_blank(replace(whole, thickness=whole.thickness + 2 * BEYOND))
+    sides = manifold_of(tall.vertices, tall.faces, "the stock").translate((0.0, 0.0, BEYOND))
+    solid = manifold_of(panel.vertices, panel.faces, "the plaque").translate((x, y, 0.0))
+    return panel_of(checked(solid ^ sides, "the trimmed plaque"), panel.max_error_mm)

@@ -1,6 +1,7 @@
 """What of a relief is cut, and where the cut runs out of the panel's sides."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
@@ -13,6 +14,7 @@ FACE_GRAIN = 1e-6
 # A rim narrower than this many pixels is no wall: the cut opens at that side.
 THINNEST_RIM = 0.75
 ROUNDING = 1e-6
+BESIDE = 1.0  # mm of level face beside a shaped stock's outline, frame and holes
 
 
 def margins(grid: Grid, stock: Stock) -> tuple[float, float, float, float]:
@@ -48,6 +50,45 @@ def check(relief: Relief, stock: Stock) -> None:
         )
 
 
+def check_clear(below: NDArray[np.bool_], grid: Grid, stock: Stock, depth: float) -> None:
+    """Refuse a cut that runs into what a stock with a shape has beside its face.
+
+    Parameters
+    ----------
+    below : (rows + 1, cols + 1) ndarray of bool
+        Nodes that are, or may be, cut.
+    grid : Grid
+    stock : Stock
+    depth : float
+        Of the relief, mm.
+
+    Raises
+    ------
+    InputError
+        Saying where the cut meets outline, frame or hole, or that a keyhole is under it.
+    """
+    if stock.plain:
+        return
+    x, y = grid.to_xy(*np.nonzero(below))
+    bad = ~stock.on_face(x, y, BESIDE)
+    if bad.any():
+        bounds = "its frame and holes" if stock.frame else "its outline and holes"
+        raise InputError(
+            "the relief runs off the stock's face",
+            expected=f"{BESIDE:g} mm or more from {bounds}",
+            found=f"X {x[bad][0]:.2f} Y {y[bad][0]:.2f}, and {bad.mean():.1%} of the figure",
+            hint="a larger --margin, a narrower --frame, or other --holes",
+        )
+    for key in stock.keyholes if len(x) else ():
+        if key.depth + depth + BESIDE > stock.thickness:
+            raise InputError(
+                "the relief would break through to a keyhole",
+                expected=f"a stock of {key.depth + depth + BESIDE:g} mm or more",
+                found=f"{stock.thickness:g} mm",
+                where="thickness",
+            )
+
+
 def sink(relief: Relief, stock: Stock) -> Sinking:
     """Find what of a relief lies below the face.
 
@@ -73,6 +114,7 @@ def sink(relief: Relief, stock: Stock) -> Sinking:
     """
     check(relief, stock)
     grid = relief.grid
+    check_clear(relief.heights < -FACE_GRAIN, grid, stock, relief.depth)
     rim = THINNEST_RIM * grid.pitch
     far, near, left, right = (int(margin < rim) for margin in margins(grid, stock))
     origin = grid.to_xy(-float(far), -float(left))

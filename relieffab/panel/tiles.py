@@ -13,9 +13,8 @@ from string import ascii_uppercase
 import manifold3d
 import numpy as np
 
-from relieffab.panel.carve import checked, is_watertight
 from relieffab.panel.model import Floats, Panel
-from relieffab.panel.solid import arrays_of, lowest_facing_up, manifold_of, snapped
+from relieffab.panel.solid import checked, lowest_facing_up, manifold_of, panel_of
 from relieffab.panel.tongues import (
     BEYOND,
     ROUNDING,
@@ -134,13 +133,11 @@ def split(panel: Panel, bed: Pair, clearance: float = 0.2) -> tuple[Tile, ...]:
         floor = lowest_facing_up(panel) - float(low[2])
         height = tongue_height(thickness, floor, clearance)
     cut = _Cut(low, high, rows, cols, height, clearance)
-    whole = manifold_of(panel, "the panel")
+    whole = manifold_of(panel.vertices, panel.faces, "the panel")
     tiles = []
     for row, col in product(range(rows), range(cols)):
         part = checked(whole ^ cut.region(row, col), f"part {row + 1}, {col + 1} of the panel")
-        vertices, faces = arrays_of(part)
-        place = cut.corner(row, col)
-        vertices[:, :2] -= place
-        facts = (is_watertight(faces), float(part.volume()), panel.max_error_mm)
-        tiles.append(Tile(snapped(vertices), faces, *facts, row, col, place))
+        x, y = cut.corner(row, col)
+        moved = panel_of(part.translate((-x, -y, 0.0)), panel.max_error_mm)
+        tiles.append(Tile(**vars(moved), row=row, col=col, place=(x, y)))
     return tuple(tiles)

@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from relieffab.picture.above import heights_above
 from relieffab.picture.render import OpenGLMissingError, TriangleMesh, render_panel
-from relieffab.picture.stone import LIGHT, hillshade
+from relieffab.picture.stone import LIGHT, hillshade, shade
 from relieffab.relief.model import Relief
 
 Method = Literal["pyrender", "hillshade"]
@@ -38,9 +39,9 @@ def panel_picture(
         'pyrender' for the panel in perspective; 'hillshade' for the relief seen
         straight on, where there is no panel or no OpenGL.
     """
-    face = hillshade(relief, light)
     if panel is None:
-        return face, "hillshade"
+        return hillshade(relief, light), "hillshade"
+    face = shade(heights_above(relief, panel), relief.grid.pitch, light)
     try:
         return render_panel(panel, face, relief.grid, width=width, light=light), "pyrender"
     except OpenGLMissingError:

@@ -10,9 +10,11 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import ndimage
 
 from relieffab.errors import RelieffabError
 from relieffab.grid import Grid
+from relieffab.layers.raster import rasterise
 from relieffab.picture.stone import BOUNCE, GAMMA, KEY, LIGHT, SKY, STONE, unit_light
 
 Floats = NDArray[np.float64]
@@ -23,6 +25,8 @@ TILT, SWING, FIELD_OF_VIEW = 27.0, -10.0, 24.0
 FILL = 0.93
 TABLE = (0.60, 0.57, 0.53)
 CLAMP_TO_EDGE = 33071
+# Z of the normal below which a face is a side.
+UPRIGHT = 1e-3
 
 
 class OpenGLMissingError(RelieffabError):
@@ -99,13 +103,17 @@ def camera_pose(low: Floats, high: Floats, aspect: float) -> Floats:
 
 
 def side_faces(vertices: Floats, faces: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Which faces lie on the slab's sides or its back, (f,)."""
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    close = 1e-4 * float((high - low).max())
+    """Which faces are the slab's sides, its holes' or its back, (f,).
+
+    They stand upright or face down; in a relief only a wall does, which never
+    reaches the back.
+    """
     corners = vertices[faces]
-    on_low = (np.abs(corners - low) < close).all(axis=1)
-    on_high = (np.abs(corners - high) < close).all(axis=1)
-    return np.asarray(on_low.any(axis=1) | on_high[:, :2].any(axis=1))
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    upright = normals[:, 2] < UPRIGHT * np.linalg.norm(normals, axis=1)
+    low = vertices[:, 2].min()
+    span = float(np.ptp(vertices[:, 2]))
+    return np.asarray(upright & (corners[:, :, 2].min(axis=1) < low + 1e-4 * span))
 
 
 def _texture(image: NDArray[np.uint8]) -> Any:
@@ -147,31 +155,34 @@ def _sides(panel: TriangleMesh, faces: NDArray[np.integer], light: Floats) -> An
     )
 
 
-def _ramp(x: Floats, low: float, high: float, soft: float) -> Floats:
-    """1 between low and high, 0 beyond, soft at both ends."""
-    t = np.clip(np.minimum(x - low, high - x) / (2 * soft) + 0.5, 0, 1)
-    return np.asarray(t * t * (3 - 2 * t))
+def _shadow(panel: TriangleMesh, x: Floats, y: Floats, thick: float, light: Floats) -> Floats:
+    """Darken a table under a slab's soft shadow, (y, x): 1 where none falls."""
+    step = x[1] - x[0]
+    grid = Grid(len(y), len(x), step, (x[0] - step / 2, y[-1] + step / 2))
+    plan = rasterise(panel.vertices, panel.faces, grid).mask.astype(float)[::-1]
+    shadow = np.ones_like(plan)
+    # It is swept from the slab's foot to its upper edge's.
+    for share in np.linspace(0, 1, 8):
+        dx, dy = -share * thick * light[:2] / light[2] / step
+        soft = ndimage.gaussian_filter(plan, thick * (0.06 + 0.18 * share) / step)
+        shadow = np.minimum(shadow, 1 - 0.62 * ndimage.shift(soft, (dy, dx), order=1))
+    return shadow
 
 
-def _table(low: Floats, high: Floats, light: Floats) -> Any:
+def _table(panel: TriangleMesh, low: Floats, high: Floats, light: Floats) -> Any:
     """Lay a plain table below, the slab's soft shadow on it."""
     from pyrender import Primitive
 
     size, thick = (high - low)[:2], float(high[2] - low[2])
-    start, end = low[:2] - 2 * size, high[:2] + 2 * size
-    x, y = (np.linspace(start[k], end[k], 768) for k in (0, 1))
-    shadow = np.ones((len(y), len(x)))
-    # The slab's shadow is swept from its foot to its upper edge's.
-    for share in np.linspace(0, 1, 8):
-        dx, dy = -share * thick * light[:2] / light[2]
-        soft = thick * (0.12 + 0.35 * share)
-        across = _ramp(x, low[0] + dx, high[0] + dx, soft)
-        along = _ramp(y, low[1] + dy, high[1] + dy, soft)
-        shadow = np.minimum(shadow, 1 - 0.62 * np.outer(along, across))
+    step = 5 * float(size.max()) / 1024
+    middle, half = (low + high)[:2] / 2, 2.5 * size
+    x, y = (np.arange(middle[k] - half[k], middle[k] + half[k], step) for k in (0, 1))
+    shadow = _shadow(panel, x, y, thick, light)
     far = np.hypot(*np.meshgrid((x - x.mean()) / size[0], (y - y.mean()) / size[1]))
     grey = shadow * (1.08 - 0.22 * far**2)
     image = np.clip(grey[..., None] * TABLE, 0, 1) ** (1 / GAMMA)
-    corners = [(start[0], start[1]), (end[0], start[1]), (end[0], end[1]), (start[0], end[1])]
+    start, end = (x[0], y[0]), (x[-1], y[-1])
+    corners = [start, (end[0], start[1]), end, (start[0], end[1])]
     below = float(low[2]) - 0.002 * thick
     return Primitive(
         positions=np.array([(a, b, below) for a, b in corners], np.float32),
@@ -226,7 +237,7 @@ def render_panel(
         parts = [
             _face(panel, panel.faces[~side], face, grid),
             _sides(panel, panel.faces[side], towards),
-            _table(low, high, towards),
+            _table(panel, low, high, towards),
         ]
         for part in parts:
             scene.add(Mesh([part]))

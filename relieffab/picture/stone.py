@@ -7,6 +7,7 @@ from relieffab.errors import InputError
 from relieffab.relief.model import Relief, pixel_slopes
 
 Floats = NDArray[np.float64]
+Colour = tuple[float, float, float]
 
 # From the upper left, as pictures of reliefs are lit by custom; 32 degrees high.
 LIGHT = (-1.0, 1.0, 0.9)
@@ -176,14 +177,17 @@ def _even_walls(linear: Floats, upright: Floats) -> Floats:
     return (1 - weight) * linear + weight * _binomial(_binomial(linear))
 
 
-def hillshade(
-    relief: Relief, light: ArrayLike = LIGHT, *, stone: tuple[float, float, float] = STONE
+def shade(
+    heights: Floats, pitch: float, light: ArrayLike = LIGHT, *, stone: Colour = STONE
 ) -> NDArray[np.uint8]:
-    """Picture a relief in stone: Lambert, cast shadow, and the sky's soft light.
+    """Picture a surface in stone: Lambert, cast shadow, and the sky's soft light.
 
     Parameters
     ----------
-    relief : Relief
+    heights : (rows + 1, cols + 1) ndarray
+        At nodes, mm.
+    pitch : float
+        Side of a pixel, mm.
     light : (3,) array_like
         Towards the key light.
     stone : tuple of float
@@ -192,16 +196,23 @@ def hillshade(
     Returns
     -------
     ndarray (rows, cols, 3) of uint8
-        One pixel of the picture for each of the relief's; sRGB-like.
+        One pixel of the picture for each of the surface's; sRGB-like.
     """
-    towards, pitch = unit_light(light), relief.grid.pitch
-    centres = _centres(relief.heights)
-    key = relit(relief, towards) * lit(centres, pitch, towards)
+    towards = unit_light(light)
+    normals, centres = pixel_normals(heights, pitch), _centres(heights - heights.max(initial=0.0))
+    key = np.maximum(normals @ towards, 0.0) * lit(centres, pitch, towards)
     open_sky = sky(centres, pitch)
     colour = np.asarray(stone)
     # What the sky does not light, the stone's own walls do, in the stone's own colour.
     grey = KEY * key + SKY * open_sky
     glow = BOUNCE * (1 - open_sky)
     linear = (grey[..., None] + glow[..., None] * colour) * colour
-    linear = _even_walls(linear, pixel_normals(relief.heights, pitch)[..., 2])
+    linear = _even_walls(linear, normals[..., 2])
     return np.rint(255 * np.clip(linear, 0, 1) ** (1 / GAMMA)).astype(np.uint8)
+
+
+def hillshade(
+    relief: Relief, light: ArrayLike = LIGHT, *, stone: Colour = STONE
+) -> NDArray[np.uint8]:
+    """Picture a relief in stone, as `shade` does."""
+    return shade(relief.heights, relief.grid.pitch, light, stone=stone)

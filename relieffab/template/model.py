@@ -3,10 +3,15 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from relieffab.layers.lines.names import NAMES
 from relieffab.layers.lines.svg import pen_width
 from relieffab.layers.model import Stroke
+from relieffab.outline import Outline
 from relieffab.relief.model import Relief
+from relieffab.stock import Stock
 from relieffab.template.contours import Contour, depth_contours, depth_text
 from relieffab.template.labels import depth_labels
 from relieffab.template.marks import (
@@ -18,9 +23,10 @@ from relieffab.template.marks import (
     cross,
     plain,
     polyline,
-    rectangle,
     scale_bar,
 )
+
+Floats = NDArray[np.float64]
 
 STEPS = 5
 COLOURS = ["#12908e", "#2a62d4", "#7a35c0", "#c2207e"]
@@ -38,6 +44,8 @@ class Template:
     ----------
     size : tuple of float
         The panel's X and Y, mm; its near left corner is the origin.
+    edges : tuple of (n, 2) ndarray
+        The panel's outline, its frame's and its holes', closed, mm.
     title : str
     step : float
         Between depth contours, mm.
@@ -51,6 +59,7 @@ class Template:
     """
 
     size: tuple[float, float]
+    edges: tuple[Floats, ...]
     title: str
     step: float
     contours: tuple[Contour, ...]
@@ -62,7 +71,7 @@ class Template:
 def make_template(
     relief: Relief,
     strokes: Sequence[Stroke],
-    size: tuple[float, float],
+    stock: Stock,
     *,
     line_width: float = 0.6,
     name: str = "relief",
@@ -73,8 +82,8 @@ def make_template(
     ----------
     relief : Relief
     strokes : sequence of Stroke
-    size : tuple of float
-        The panel's X and Y, mm.
+    stock : Stock
+        The panel.
     line_width : float, optional
         Of lines that bound a form, mm; the others are half as wide.
     name : str, optional
@@ -82,19 +91,40 @@ def make_template(
     """
     step = relief.depth / STEPS
     contours = depth_contours(relief, step)
-    across, high = size
+    across, high = stock.width, stock.height
     title = (
         f"{plain(name)}: {across:g} x {high:g} mm, {relief.depth:g} mm deep, "
         f"contours every {depth_text(step)} mm"
     )
     labels = depth_labels(contours, relief, strokes, COLOURS)
-    return Template(size, title, step, tuple(contours), tuple(labels), tuple(strokes), line_width)
+    return Template(
+        (across, high),
+        edges_of(stock),
+        title,
+        step,
+        tuple(contours),
+        tuple(labels),
+        tuple(strokes),
+        line_width,
+    )
+
+
+def edges_of(stock: Stock) -> tuple[Floats, ...]:
+    """Draw a stock seen from above: outline, frame, holes; each closed, mm."""
+    found = [stock.outline.polygon()]
+    if stock.frame:
+        found += [stock.outline.polygon(by=by) for by in sorted({stock.frame.width, stock.rim})]
+    for hole in stock.holes:
+        for across in {hole.diameter, 2 * hole.radius}:
+            circle = Outline("round", across, across).polygon()
+            found.append(circle + hole.at - across / 2)
+    return tuple(found)
 
 
 def panel_marks(template: Template) -> dict[str, list[Mark]]:
     """Gather what lies on the panel, by layer, in the panel's own coordinates."""
     across, high = template.size
-    panel: list[Mark] = [rectangle(0.0, 0.0, across, high)]
+    panel: list[Mark] = [Line(edge, closed=True) for edge in template.edges]
     for x in (-BESIDE, across + BESIDE):
         for y in (-BESIDE, high + BESIDE):
             panel += cross(x, y)

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.machine import Machine
@@ -28,6 +30,7 @@ def check(
             hint="another view, or a larger depth",
         )
     _check_stock(relief, stock, deepest)
+    _check_frame(relief, stock, cutters)
     check_tools(machine, cutters, stock, deepest)
     check_stepover(stepover, cutters[1])
 
@@ -65,6 +68,22 @@ def _check_stock(relief: Relief, stock: Stock, deepest: float) -> None:
             "the relief reaches beyond the stock",
             expected=f"X 0 to {stock.width:g}, Y 0 to {stock.height:g} mm",
             found=f"X {x[0]:g} to {x[-1]:g}, Y {y[-1]:g} to {y[0]:g} mm",
+        )
+
+
+def _check_frame(relief: Relief, stock: Stock, cutters: Sequence[Cutter]) -> None:
+    """Refuse a cut that a cutter reaches only through a raised frame."""
+    if stock.top == 0 or stock.frame is None:
+        return
+    widest = max(cutter.diameter for cutter in cutters)
+    x, y = relief.grid.to_xy(*np.nonzero(relief.heights < 0))
+    bad = ~stock.outline.inside(x, y, by=stock.frame.width + widest / 2)
+    if bad.any():
+        raise InputError(
+            "a cutter would run into the raised frame",
+            expected=f"half the widest cutter, {widest / 2:g} mm, between frame and cut",
+            found=f"a cut at X {x[bad][0]:.2f} Y {y[bad][0]:.2f}",
+            hint="a larger --margin, or narrower cutters",
         )
 
 

@@ -3,7 +3,8 @@ from dataclasses import fields
 import pytest
 
 from relieffab.errors import InputError
-from relieffab.job.settings import SETTINGS, Job, default_job, resolve
+from relieffab.job.settings import Job, default_job, resolve
+from relieffab.job.table import SETTINGS
 from relieffab.layers.lines.drawing import Drawing
 
 

@@ -8,9 +8,9 @@ from hypothesis.extra.numpy import arrays
 
 from relieffab.errors import InputError, RelieffabError
 from relieffab.grid import Grid
-from relieffab.panel import carve as module
-from relieffab.panel.carve import accept, checked, is_watertight, largest_error, make_panel
+from relieffab.panel.carve import accept, largest_error, make_panel
 from relieffab.panel.model import Panel
+from relieffab.panel.solid import checked, is_watertight, panel_of
 from relieffab.panel.weld import weld
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
@@ -169,15 +169,13 @@ def test_the_error_is_measured_on_the_panel(bumpy):
     panel = make_panel(bumpy, stock)
     pit = (panel.vertices[:, 2] < 0) & (panel.vertices[:, 2] > -6)
     lifted = panel.vertices + np.where(pit, 0.5, 0.0)[:, None] * [0, 0, 1]
-    worst = largest_error(lifted, panel.faces, bumpy)
+    worst = largest_error(lifted, panel.faces, bumpy, stock)
     assert worst == pytest.approx(0.5, abs=0.02)
 
 
-def test_rounding_next_to_the_face_is_taken_off(make_relief):
-    stock = Stock(12, 10, 3)
-    sunk = module.slab(stock).translate((0, 0, -1e-12))
-    panel = module._finish(sunk, make_relief(np.zeros((3, 3))), 0.0)
-    assert panel.vertices[:, 2].max() == 0.0
+def test_rounding_next_to_the_face_is_taken_off():
+    sunk = manifold3d.Manifold.cube((12, 10, 3)).translate((0, 0, -3 - 1e-12))
+    assert panel_of(sunk, 0.0).vertices[:, 2].max() == 0.0
 
 
 def test_progress_names_the_stages(bumpy):

@@ -66,12 +66,16 @@ def test_the_cast_lies_in_it_face_down(panel):
     mould = make_mould(panel, 5.0)
     cast = Panel(leaning(panel, 5.0), panel.faces, True, 0.0, 0.0)
     around = RIM + 6.0 * tan(radians(5.0))
-    turned = manifold_of(cast, "the cast").rotate((0.0, 180.0, 0.0))
+    turned = manifold_of(cast.vertices, cast.faces, "the cast").rotate((0.0, 180.0, 0.0))
     turned = turned.translate((26.0 + around, around, 0.0))
-    assert (turned ^ manifold_of(mould, "the mould")).volume() == pytest.approx(0, abs=1e-6)
+    assert (
+        turned ^ manifold_of(mould.vertices, mould.faces, "the mould")
+    ).volume() == pytest.approx(0, abs=1e-6)
     # It comes out upwards and does not go down.
     for step, free in ((0.5, True), (-0.5, False)):
-        moved = turned.translate((0.0, 0.0, step)) ^ manifold_of(mould, "the mould")
+        moved = turned.translate((0.0, 0.0, step)) ^ manifold_of(
+            mould.vertices, mould.faces, "the mould"
+        )
         assert (moved.volume() < 1e-6) == free
 
 

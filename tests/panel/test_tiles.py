@@ -29,7 +29,7 @@ def bumpy_panel(make_relief, width=100.0, height=70.0):
 
 
 def assembled(tile):
-    return manifold_of(tile, "a part").translate((*tile.place, 0.0))
+    return manifold_of(tile.vertices, tile.faces, "a part").translate((*tile.place, 0.0))
 
 
 @pytest.fixture(scope="module")

@@ -5,13 +5,14 @@ import zlib
 import numpy as np
 import pytest
 
+from relieffab.stock import Stock
 from relieffab.template.model import make_template
 from relieffab.template.pdf import pages_of, to_pdf
 
 
 @pytest.fixture
 def template(bowl, strokes):
-    return make_template(bowl, strokes, (60.0, 40.0), name="Schüssel 馬.ply")
+    return make_template(bowl, strokes, Stock(60.0, 40.0, 12.0), name="Schüssel 馬.ply")
 
 
 def streams(data):
@@ -36,7 +37,7 @@ def test_the_page_is_the_paper(template, paper, size):
 
 
 def test_the_bar_measures_100_mm_on_every_page(bowl, strokes):
-    template = make_template(bowl, strokes, (360.0, 300.0))
+    template = make_template(bowl, strokes, Stock(360.0, 300.0, 12.0))
     data = to_pdf(template, "a4")
     assert len(boxes(data)) == len(pages_of(template, "a4").pages()) == 4
     pages = [text for text in streams(data) if b" of B2" in text]
@@ -52,7 +53,7 @@ def test_the_bar_measures_100_mm_on_every_page(bowl, strokes):
 
 
 def test_every_page_shows_the_drawing_that_is_in_the_file_once(bowl, strokes):
-    one = to_pdf(make_template(bowl, strokes, (60.0, 40.0)), "a4")
-    many = to_pdf(make_template(bowl, strokes, (360.0, 300.0)), "a4")
+    one = to_pdf(make_template(bowl, strokes, Stock(60.0, 40.0, 12.0)), "a4")
+    many = to_pdf(make_template(bowl, strokes, Stock(360.0, 300.0, 12.0)), "a4")
     assert sum(b"Do" in text for text in streams(many)) == 4
     assert len(many) < 2 * len(one)

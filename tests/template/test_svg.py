@@ -3,6 +3,7 @@ from dataclasses import replace
 import pytest
 from lxml import etree
 
+from relieffab.stock import Stock
 from relieffab.template.model import make_template
 from relieffab.template.svg import to_svg
 
@@ -11,7 +12,7 @@ LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
 @pytest.fixture
 def template(bowl, strokes):
-    return make_template(bowl, strokes, (60.0, 40.0), name="bö<wl>\x02.ply")
+    return make_template(bowl, strokes, Stock(60.0, 40.0, 12.0), name="bö<wl>\x02.ply")
 
 
 def parsed(template):

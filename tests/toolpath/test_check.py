@@ -7,6 +7,7 @@ import pytest
 
 from relieffab import profiles
 from relieffab.errors import InputError
+from relieffab.fittings import Frame
 from relieffab.grid import Grid
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
@@ -35,6 +36,8 @@ FLAT = GOOD["cutters"][0]
 
 def test_a_good_job_passes():
     check(**GOOD)
+    check(**{**GOOD, "stock": Stock(40.0, 30.0, 12.0, frame=Frame(9.0, -2.0))})
+    check(**{**GOOD, "stock": Stock(40.0, 30.0, 12.0, frame=Frame(8.0, 2.0))})
 
 
 @pytest.mark.parametrize(
@@ -42,6 +45,7 @@ def test_a_good_job_passes():
     [
         ({"relief": relief_of(0.0)}, "nothing to cut"),
         ({"stock": Stock(40.0, 30.0, 3.0)}, "through the stock"),
+        ({"stock": Stock(40.0, 30.0, 12.0, frame=Frame(9.0, 2.0))}, "into the raised frame"),
         ({"stock": Stock(39.0, 30.0, 12.0)}, "beyond the stock"),
         ({"stock": Stock(300.0, 30.0, 12.0)}, "(?s)larger than the machine.*263 mm in X"),
         ({"stock": Stock(40.0, 160.0, 12.0)}, "157 mm in Y"),
