@@ -39,6 +39,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "panel.plaque": ["make_plaque"],
         "panel.tiles": ["Tile", "split"],
         "picture": ["panel_picture"],
+        "relief.compose": ["Placed", "compose"],
         "relief.model": ["Relief"],
         "relief.make": ["make_relief"],
         "relief.png": ["to_png"],

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
-from relieffab.cli import comparison, first, machine, stages
+from relieffab.cli import comparison, composing, first, machine, stages
 from relieffab.cli.interrupt import listen
 from relieffab.errors import RelieffabError
 
@@ -31,6 +31,7 @@ for command in (
     stages.template,
     stages.toolpath,
     stages.verify,
+    composing.compose,
     comparison.compare,
     machine.send,
     machine.machines,

@@ -47,12 +47,14 @@ def _flag(setting: Setting) -> tuple[str, Any, Any]:
 Options = _flags("Options", [n for n in TABLE if n not in ("model", *TEMPLATE_SETTINGS)])
 PanelOptions = _flags("PanelOptions", PANEL_SETTINGS)
 ToolpathOptions = _flags("ToolpathOptions", TOOLPATH_SETTINGS)
+ComposeOptions = _flags("ComposeOptions", ("size", "thickness", *STOCK_SETTINGS))
 TemplateOptions = _flags("TemplateOptions", TEMPLATE_SETTINGS)
 CompareOptions = _flags("CompareOptions", [n for n in TABLE if n not in ("model", *_NOT_COMPARED)])
 
 Flags = Annotated[Options | None, Parameter(name="*")]  # type: ignore[valid-type]
 PanelFlags = Annotated[PanelOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 ToolpathFlags = Annotated[ToolpathOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
+ComposeFlags = Annotated[ComposeOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 TemplateFlags = Annotated[TemplateOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 CompareFlags = Annotated[CompareOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
@@ -66,7 +68,8 @@ ShowConfig = Annotated[
 ]
 
 
-def _given(flags: Any) -> dict[str, str]:
+def given(flags: Any) -> dict[str, str]:
+    """Return the flags that were given, as typed."""
     if flags is None:
         return {}
     return {name: text for name, text in asdict(flags).items() if text is not None}
@@ -81,12 +84,12 @@ def settings_of(source: str | None, flags: Any) -> dict[str, Chosen]:
         A model, or a job file if it ends in .toml; None for the scarab.
     flags : Options or None
     """
-    given = _given(flags)
+    typed = given(flags)
     if source is None:
-        return gather({**given, "model": ""}, None, os.environ)
+        return gather({**typed, "model": ""}, None, os.environ)
     if not source.lower().endswith(".toml"):
-        return gather({**given, "model": source}, None, os.environ)
-    return gather(given, Path(source), os.environ)
+        return gather({**typed, "model": source}, None, os.environ)
+    return gather(typed, Path(source), os.environ)
 
 
 def model_settings(source: str, flags: Any) -> dict[str, Chosen]:
@@ -108,4 +111,4 @@ def settings_in(folder: Path, names: Iterable[str], flags: Any) -> dict[str, Cho
         for origin, values in from_environment(os.environ)
         if set(values) <= set(names)
     ]
-    return resolve([("flag", _given(flags)), *chosen, ("report.json", report["settings"])])
+    return resolve([("flag", given(flags)), *chosen, ("report.json", report["settings"])])

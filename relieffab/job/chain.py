@@ -145,18 +145,25 @@ def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple
     """Solve for the relief; the part is report.json's `relief`."""
     relief, solution = make_relief(layers, carving_of(job), progress=progress)
     return relief, {
-        "file": "relief.tiff",
-        "rows": relief.heights.shape[0],
-        "cols": relief.heights.shape[1],
-        "pitch_mm": relief.grid.pitch,
-        "origin_mm": list(relief.grid.origin),
-        "depth_mm": relief.depth,
+        **relief_part(relief),
         "method": job.method,
         "energy": solution and solution.energy,
         "iterations": solution and solution.iterations,
         "residual": solution and solution.residual,
         "applications": solution and solution.applications,
         "converged": solution and solution.converged,
+    }
+
+
+def relief_part(relief: Relief) -> Part:
+    """Describe a relief as report.json does."""
+    return {
+        "file": "relief.tiff",
+        "rows": relief.heights.shape[0],
+        "cols": relief.heights.shape[1],
+        "pitch_mm": relief.grid.pitch,
+        "origin_mm": list(relief.grid.origin),
+        "depth_mm": relief.depth,
     }
 
 

@@ -20,6 +20,7 @@ KEYS = (
     "model",
     "view",
     "settings",
+    "reliefs",
     "relief",
     *SOLIDS,
     "stock",

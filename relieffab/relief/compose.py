@@ -1,0 +1,132 @@
+"""Several reliefs on one panel, each at its place."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.errors import InputError
+from relieffab.grid import Grid
+from relieffab.relief.model import Floats, Relief, nodes_of
+
+MOST = 16384  # pixels each way
+ROUNDING = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A relief at a place.
+
+    Parameters
+    ----------
+    relief : Relief
+    at : tuple of float
+        Where the X0 Y0 of its own panel comes to lie on the new one, mm.
+    name : str
+        As a message would name it.
+    """
+
+    relief: Relief
+    at: tuple[float, float]
+    name: str
+
+    @property
+    def grid(self) -> Grid:
+        """Its grid on the new panel."""
+        grid = self.relief.grid
+        x, y = grid.origin
+        return Grid(grid.rows, grid.cols, grid.pitch, (x + self.at[0], y + self.at[1]))
+
+
+def _common(parts: Sequence[Placed], size: tuple[float, float]) -> Grid:
+    """Cover the panel by pixels of the finest relief's pitch, in step with its nodes."""
+    finest = min((part.grid for part in parts), key=lambda grid: grid.pitch)
+    pitch = finest.pitch
+    left, near = (int(np.floor(v / pitch + ROUNDING)) for v in finest.to_xy(finest.rows, 0))
+    x1, y1 = finest.to_xy(0, finest.cols)
+    right, far = (int(np.floor(v / pitch + ROUNDING)) for v in (size[0] - x1, size[1] - y1))
+    rows, cols = finest.rows + near + far, finest.cols + left + right
+    if max(rows, cols) > MOST:
+        raise InputError(
+            "the panel would have too many pixels",
+            expected=f"at most {MOST} each way",
+            found=f"{cols} x {rows} of the finest relief's {pitch:g} mm",
+            hint="reliefs of a coarser --resolution",
+        )
+    return Grid(rows, cols, pitch, finest.to_xy(-far, -left))
+
+
+def _check_inside(part: Placed, size: tuple[float, float]) -> None:
+    grid = part.grid
+    (x0, y0), (x1, y1) = grid.to_xy(grid.rows, 0), grid.to_xy(0, grid.cols)
+    if min(x0, y0) < -ROUNDING or x1 > size[0] + ROUNDING or y1 > size[1] + ROUNDING:
+        raise InputError(
+            f"{part.name} reaches beyond the panel",
+            expected=f"X 0 to {size[0]:g}, Y 0 to {size[1]:g} mm",
+            found=f"X {x0:g} to {x1:g}, Y {y0:g} to {y1:g} mm",
+            hint="another place, or a larger --size",
+        )
+
+
+def _sampled(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
+    """Take a relief's surface at another grid's nodes, and its figure at the pixels."""
+    x, y = grid.node_axes()
+    dx, dy = part.at
+    heights = part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
+    row, col = part.grid.to_index(x[:-1] + grid.pitch / 2, y[:-1] - grid.pitch / 2)
+    i, j = np.floor(row + ROUNDING).astype(int), np.floor(col + ROUNDING).astype(int)
+    rows, cols = part.grid.shape
+    known = ((i >= 0) & (i < rows))[:, None] & ((j >= 0) & (j < cols))[None, :]
+    mask = known & part.relief.mask[np.clip(i, 0, rows - 1)][:, np.clip(j, 0, cols - 1)]
+    # A node on a wall may lie just outside all pixels whose centres are in the figure.
+    lone = (heights < 0) & ~nodes_of(mask)
+    mask |= lone[:-1, :-1] | lone[:-1, 1:] | lone[1:, :-1] | lone[1:, 1:]
+    return heights, mask
+
+
+def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
+    """Lay reliefs out on one panel.
+
+    The new relief has the pitch of the finest, and its nodes are in step with
+    that one's: it, and all of its pitch that are whole pixels away from it, are
+    taken over exactly.  Others are sampled on their own triangles.
+
+    Parameters
+    ----------
+    parts : sequence of Placed
+    size : tuple of float
+        The panel's X and Y, mm.
+
+    Returns
+    -------
+    Relief
+        As deep as the deepest.
+
+    Raises
+    ------
+    InputError
+        If there is none, one reaches beyond the panel, or two overlap.
+    """
+    if not parts:
+        raise InputError("there is no relief to lay out", expected="one or more")
+    for part in parts:
+        _check_inside(part, size)
+    grid = _common(parts, size)
+    heights, owner = np.zeros(grid.node_shape), np.full(grid.shape, -1)
+    for k, part in enumerate(parts):
+        found, mask = _sampled(part, grid)
+        both = nodes_of(mask) & nodes_of(owner >= 0)
+        if both.any():
+            i, j = np.argwhere(both)[0]
+            x, y = grid.to_xy(int(i), int(j))
+            others = {parts[n].name for n in np.unique(owner[mask & (owner >= 0)])}
+            raise InputError(
+                f"{part.name} overlaps {' and '.join(sorted(others)) or 'its neighbour'}",
+                expected="figures that do not touch",
+                found=f"both at X {x:.2f} Y {y:.2f}",
+                hint="places further apart",
+            )
+        heights += found
+        owner[mask] = k
+    return Relief(grid, heights, owner >= 0, max(part.relief.depth for part in parts))

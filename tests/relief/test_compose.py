@@ -1,0 +1,68 @@
+import numpy as np
+import pytest
+
+from relieffab.errors import InputError
+from relieffab.grid import Grid
+from relieffab.relief.compose import Placed, compose
+from relieffab.relief.model import Relief, inner_nodes, nodes_of
+
+RNG = np.random.default_rng(3)
+
+
+def relief(rows=12, cols=16, pitch=0.5, depth=2.0):
+    """Noise in the middle of a small panel."""
+    grid = Grid(rows, cols, pitch, (0.0, rows * pitch))
+    mask = np.zeros(grid.shape, bool)
+    mask[3:-3, 3:-3] = True
+    heights = np.where(inner_nodes(mask), -depth * RNG.random(grid.node_shape), 0.0)
+    return Relief(grid, heights, mask, depth)
+
+
+def test_whole_pixels_apart_nothing_changes():
+    one, other = relief(), relief(depth=3.0)
+    made = compose([Placed(one, (1, 2), "a"), Placed(other, (11.5, 2), "b")], (20.25, 9))
+    assert made.depth == 3.0
+    assert made.grid.pitch == 0.5
+    for part, (x, y) in ((one, (1, 2)), (other, (11.5, 2))):
+        row, col = (round(v) for v in made.grid.to_index(x, y + 6))
+        np.testing.assert_array_equal(made.heights[row : row + 13, col : col + 17], part.heights)
+        np.testing.assert_array_equal(made.mask[row : row + 12, col : col + 16], part.mask)
+    assert made.mask.sum() == one.mask.sum() + other.mask.sum()
+    x, y = made.grid.node_axes()
+    assert 0 <= x[0] < 0.5
+    assert 20.25 - 0.5 < x[-1] <= 20.25
+    assert 0 <= y[-1] < 0.5
+    assert 9 - 0.5 < y[0] <= 9
+
+
+def test_a_coarser_one_is_sampled_on_its_own_triangles():
+    fine, coarse = relief(pitch=0.25), relief(pitch=0.7)
+    made = compose([Placed(coarse, (0.1, 0.2), "a"), Placed(fine, (12, 0.3), "b")], (17, 9))
+    x, y = made.grid.node_axes()
+    want = coarse.height_at(x[None, :] - 0.1, y[:, None] - 0.2)
+    want += fine.height_at(x[None, :] - 12, y[:, None] - 0.3)
+    np.testing.assert_allclose(made.heights, want, atol=1e-12)
+    assert made.grid.pitch == 0.25
+    assert not made.heights[~nodes_of(made.mask)].any()
+    area = (made.mask.sum() * 0.25**2, coarse.mask.sum() * 0.7**2 + fine.mask.sum() * 0.25**2)
+    assert area[0] == pytest.approx(area[1], rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("places", "message"),
+    [
+        ([], "no relief to lay out"),
+        ([(-0.1, 0)], "a reaches beyond"),
+        ([(0, 0), (13, 0)], "b reaches beyond"),
+        ([(0, 0), (2, 0)], "(?s)b overlaps a.*both at X"),
+    ],
+)
+def test_places_that_do_not_fit_are_refused(places, message):
+    parts = [Placed(relief(), at, "ab"[k]) for k, at in enumerate(places)]
+    with pytest.raises(InputError, match=message):
+        compose(parts, (20, 6))
+
+
+def test_a_panel_of_too_many_pixels_is_refused():
+    with pytest.raises(InputError, match="too many pixels"):
+        compose([Placed(relief(pitch=0.01), (0, 0), "a")], (200, 10))
