@@ -8,9 +8,10 @@ import relieffab as rf
 from relieffab.picture import hillshade, png8
 
 
-def ammonite(turns: float = 3.4, steps: int = 2400, around: int = 96) -> tuple:
+def ammonite(turns: float = 3.4, steps: int = 4800, around: int = 96) -> tuple:
     """Sweep a ribbed, growing circle along a spiral; return vertices and faces."""
-    t = np.linspace(0, 2 * np.pi * turns, steps)[:, None]
+    # It begins far inside, where its middle is too narrow for a pixel.
+    t = np.linspace(-8 * np.pi, 2 * np.pi * turns, steps)[:, None]
     a = np.linspace(0, 2 * np.pi, around, endpoint=False)[None, :]
     size = np.exp(0.175 * t)
     tube = 0.52 * size * (1 + 0.08 * np.abs(np.sin(9 * t + 0.8 * np.cos(a))))

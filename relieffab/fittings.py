@@ -5,6 +5,7 @@ from typing import Literal
 
 from relieffab.errors import InputError
 
+Kind = Literal["rectangle", "round", "arched"]  # of outline
 Place = tuple[float, float]
 
 

@@ -1,14 +1,14 @@
 """Outlines of a panel seen from above, and how far inside one a place lies."""
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from relieffab.errors import InputError, suggest
+from relieffab.fittings import Kind
 
-Kind = Literal["rectangle", "round", "arched"]
 Floats = NDArray[np.float64]
 
 

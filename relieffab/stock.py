@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from relieffab.errors import InputError
-from relieffab.fittings import Edge, Frame, Hole, Keyhole, Place
-from relieffab.outline import Kind, Outline
+from relieffab.fittings import Edge, Frame, Hole, Keyhole, Kind, Place
+from relieffab.outline import Outline
 
 WALL = 1.0  # mm of material that must stay beside holes, and over keyholes
 

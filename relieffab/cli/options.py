@@ -103,12 +103,13 @@ def model_settings(source: str, flags: Any) -> dict[str, Chosen]:
 def settings_in(folder: Path, names: Iterable[str], flags: Any) -> dict[str, Chosen]:
     """Resolve settings for a folder that a job left.
 
-    Flags and RELIEFFAB_* choose among `names`; all else is as the job was made.
+    Flags and RELIEFFAB_* choose among `names`; all else is as the job was made,
+    but for the solid: without a word it is a panel.
     """
-    report = read_report(folder)
+    kept = {name: text for name, text in read_report(folder)["settings"].items() if name != "solid"}
     chosen = [
         (origin, values)
         for origin, values in from_environment(os.environ)
         if set(values) <= set(names)
     ]
-    return resolve([("flag", given(flags)), *chosen, ("report.json", report["settings"])])
+    return resolve([("flag", given(flags)), *chosen, ("report.json", kept)])

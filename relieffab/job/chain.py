@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relieffab import profiles
 from relieffab.cutter import Cutter
@@ -22,7 +23,7 @@ from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
 from relieffab.panel.sinking import check_clear
-from relieffab.picture import panel_picture, png8, png16, smaller
+from relieffab.picture import panel_picture, png8, png16, smaller, solid_picture
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
@@ -201,7 +202,7 @@ def write_solid(
         "watertight": solid.watertight,
         "volume_mm3": solid.volume_mm3,
         "max_error_mm": solid.max_error_mm,
-        **solids.write_parts(solid, job, folder),
+        **solids.write_parts(solid, job, folder, f"{title} {name}"),
     }
 
 
@@ -223,6 +224,14 @@ def plan_paths(
 
 def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> tuple[bytes, Part]:
     """Write preview.png; return it small, and how it was made."""
-    image, method = panel_picture(relief, panel)
-    (folder / "preview.png").write_bytes(png8(image))
-    return png8(smaller(image, THUMBNAIL)), {"file": "preview.png", "method": method}
+    return _kept(*panel_picture(relief, panel), folder / "preview.png")
+
+
+def write_solid_picture(solid: Panel, relief: Relief, file: Path) -> tuple[bytes, Part]:
+    """Write the picture of a plaque or a mould; return it small, and how it was made."""
+    return _kept(*solid_picture(solid, relief.grid.pitch), file)
+
+
+def _kept(image: NDArray[np.uint8], method: str, file: Path) -> tuple[bytes, Part]:
+    file.write_bytes(png8(image))
+    return png8(smaller(image, THUMBNAIL)), {"file": file.name, "method": method}

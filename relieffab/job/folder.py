@@ -9,8 +9,7 @@ from itertools import chain
 from pathlib import Path
 
 from relieffab.errors import InputError
-from relieffab.panel.blank import FRAME, STOCK
-from relieffab.panel.formats import FORMATS
+from relieffab.panel.formats import FORMATS, FRAME, STOCK
 
 REPORT = "report.json"
 
@@ -20,7 +19,9 @@ RELIEF = ("relief.tiff", "relief.png", "preview.png")
 SOLIDS = {
     name: (
         *(f"{name}.{kind}" for kind in FORMATS),
-        *(f"{name}-[A-Z][1-9].stl", f"{name}-[A-Z][1-9][0-9].stl"),
+        *(f"{name}-[A-Z][1-9].{kind}" for kind in FORMATS),
+        *(f"{name}-[A-Z][1-9][0-9].{kind}" for kind in FORMATS),
+        *([] if name == "panel" else [f"{name}.png"]),
     )
     for name in ("panel", "plaque", "mould")
 }

@@ -5,9 +5,8 @@ from typing import Any, get_args
 
 from relieffab import units
 from relieffab.errors import InputError, suggest
-from relieffab.fittings import Edge
+from relieffab.fittings import Edge, Kind
 from relieffab.layers.lines.names import chosen
-from relieffab.outline import Kind
 from relieffab.panel import formats
 from relieffab.relief import names
 from relieffab.template.pages import PAPERS

@@ -21,7 +21,8 @@ from relieffab.job.settings import Chosen, Job, job_of
 from relieffab.job.stocks import stock_files
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
-from relieffab.panel.blank import FRAME, STOCK, Drafting
+from relieffab.panel.blank import Drafting
+from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
@@ -86,19 +87,22 @@ def _carve(
     folder: Path,
     progress: Progress,
 ) -> None:
-    """Make the job's solid and write it.
+    """Make the job's solid and write it, its picture in its 3MF, too.
 
-    The panel's picture goes into its 3MF, too; other solids leave the picture that is there.
+    Before there is a panel, preview.png shows the relief.
     """
     with _timed(report, job.solid, progress):
         solid, facts = solids.make(relief, drafting, job, progress)
-    panel, small = solid if job.solid == "panel" else None, None
-    if panel or "picture" not in report:
-        with _timed(report, "picture", progress):
+    panel = solid if job.solid == "panel" else None
+    with _timed(report, "picture", progress):
+        if panel or "picture" not in report:
             small, report["picture"] = chain.write_picture(relief, panel, folder)
+        if panel is None:
+            file = folder / f"{job.solid}.png"
+            small, facts["picture"] = chain.write_solid_picture(solid, relief, file)
     with _timed(report, "export", progress):
-        name, picture = report["model"]["name"], small if panel else None
-        part = chain.write_solid(solid, job, folder, name=name, picture=picture)
+        name = report["model"]["name"]
+        part = chain.write_solid(solid, job, folder, name=name, picture=small)
         report[job.solid] = {**part, **facts}
 
 

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from relieffab.errors import InputError, suggest
-from relieffab.fittings import Edge
+from relieffab.fittings import Edge, Kind
 from relieffab.job.table import SETTINGS, TABLE, Setting
-from relieffab.outline import Kind
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from relieffab.job.stocks import stock_of
 from relieffab.panel.blank import Drafting
 from relieffab.panel.carve import make_panel
 from relieffab.panel.draft import check_draft
-from relieffab.panel.export import write_stl
+from relieffab.panel.export import write_panel
 from relieffab.panel.model import Panel
 from relieffab.panel.mould import FLOOR, make_mould, outer_size
 from relieffab.panel.plaque import make_plaque
@@ -88,8 +88,16 @@ def draft_facts(relief: Relief, stock: Stock, job: Job) -> Facts:
     return part
 
 
-def write_parts(solid: Panel, job: Job, folder: Path) -> Facts:
+def write_parts(solid: Panel, job: Job, folder: Path, name: str) -> Facts:
     """Split a solid for the job's bed and write its parts as panel-A1.stl and so on.
+
+    Parameters
+    ----------
+    solid : Panel
+    job : Job
+    folder : Path
+    name : str
+        Of the solid, for formats that name their object.
 
     Returns
     -------
@@ -104,12 +112,14 @@ def write_parts(solid: Panel, job: Job, folder: Path) -> Facts:
         return {"tiles": []}
     listed = []
     for tile in tiles:
-        file = f"{job.solid}-{tile.name}.stl"
-        write_stl(tile, folder / file)
+        files = [f"{job.solid}-{tile.name}.{kind}" for kind in job.formats]
+        for file in files:
+            write_panel(tile, folder / file, name=f"{name}, part {tile.name}")
         size = tile.vertices.max(axis=0) - tile.vertices.min(axis=0)
         listed.append(
             {
-                "file": file,
+                "file": files[0],
+                "files": files,
                 "place_mm": list(tile.place),
                 "size_mm": size.tolist(),
                 "triangles": len(tile.faces),

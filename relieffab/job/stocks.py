@@ -10,8 +10,9 @@ from relieffab import profiles
 from relieffab.fittings import Frame, Hole, Keyhole
 from relieffab.job.settings import Job
 from relieffab.machine import Machine
-from relieffab.panel.blank import FRAME, STOCK, Drafting, drafting
+from relieffab.panel.blank import Drafting, drafting
 from relieffab.panel.cad import CadUnavailableError
+from relieffab.panel.formats import FRAME, STOCK
 from relieffab.stock import Stock
 
 Part = dict[str, Any]

@@ -12,10 +12,11 @@ import numpy as np
 
 from relieffab.errors import InputError, RelieffabError
 from relieffab.panel import cad
+from relieffab.panel.formats import FRAME, STOCK
 from relieffab.panel.model import Floats, Ints
 from relieffab.stock import Stock
 
-STOCK, FRAME, BLANK = "stock.step", "frame.step", "blank.npz"
+BLANK = "blank.npz"
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from relieffab.errors import InputError, suggest
 
 FORMATS = ("stl", "3mf", "ply", "obj", "glb")
+STOCK, FRAME = "stock.step", "frame.step"  # files of the uncut stock
 USUAL = ("stl", "3mf")
 
 

@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from relieffab.picture.above import heights_above
+from relieffab.picture.above import heights_above, solid_heights
 from relieffab.picture.render import OpenGLMissingError, TriangleMesh, render_panel
 from relieffab.picture.stone import LIGHT, hillshade, shade
 from relieffab.relief.model import Relief
@@ -44,5 +44,34 @@ def panel_picture(
     face = shade(heights_above(relief, panel), relief.grid.pitch, light)
     try:
         return render_panel(panel, face, relief.grid, width=width, light=light), "pyrender"
+    except OpenGLMissingError:
+        return face, "hillshade"
+
+
+def solid_picture(
+    solid: TriangleMesh, pitch: float, *, width: int = 1600, light: ArrayLike = LIGHT
+) -> tuple[NDArray[np.uint8], Method]:
+    """Picture any solid that lies on its back, a plaque or a mould.
+
+    Parameters
+    ----------
+    solid : TriangleMesh
+    pitch : float
+        Side of a pixel of its shading, mm.
+    width : int
+        Of the picture in perspective, pixels.
+    light : (3,) array_like
+        Towards the key light.
+
+    Returns
+    -------
+    image : (h, w, 3) ndarray of uint8
+    method : str
+        As `panel_picture`.
+    """
+    grid, heights = solid_heights(solid, pitch)
+    face = shade(heights, pitch, light)
+    try:
+        return render_panel(solid, face, grid, width=width, light=light), "pyrender"
     except OpenGLMissingError:
         return face, "hillshade"

@@ -120,7 +120,9 @@ def _texture(image: NDArray[np.uint8]) -> Any:
     from pyrender import MetallicRoughnessMaterial, Sampler, Texture
 
     sampler = Sampler(wrapS=CLAMP_TO_EDGE, wrapT=CLAMP_TO_EDGE)
-    texture = Texture(source=np.ascontiguousarray(image), source_channels="RGB", sampler=sampler)
+    # Four bytes a pixel: OpenGL takes rows of three amiss unless they are whole words.
+    opaque = np.dstack([image, np.full(image.shape[:2], 255, np.uint8)])
+    texture = Texture(source=np.ascontiguousarray(opaque), source_channels="RGBA", sampler=sampler)
     return MetallicRoughnessMaterial(baseColorTexture=texture, doubleSided=True)
 
 

@@ -103,7 +103,7 @@ def horizon(
     Parameters
     ----------
     heights : (rows, cols) ndarray
-        At pixel centres, mm, none above 0; beyond the border all is 0.
+        At pixel centres, mm, none above 0; beyond the border they go on.
     pitch : float
         Side of a pixel, mm.
     direction : (2,) array_like
@@ -123,7 +123,7 @@ def horizon(
     rows, cols = heights.shape
     offsets = _offsets(way, float(-heights.min(initial=0)) / (least * pitch), growth)
     pad = max((max(abs(r), abs(c)) for r, c, _ in offsets), default=0)
-    wide = np.pad(heights, pad)
+    wide = np.pad(heights, pad, mode="edge")
     highest = np.zeros_like(heights)
     for row, col, length in offsets:
         seen = wide[pad + row : pad + row + rows, pad + col : pad + col + cols]

@@ -437,3 +437,23 @@ def test_a_classic_method_makes_a_relief_and_says_so(model, tmp_path, capsys):
 
 def test_our_own_method_is_named_too(made):
     assert json.loads((made / "report.json").read_text())["relief"]["method"] == "sunken"
+
+
+def test_a_framed_arched_panel_with_holes_is_made_and_proved(model, tmp_path):
+    folder = tmp_path / "job"
+    shape = ["--outline", "arched", "--corner", "3mm", "--frame", "4mm", "--frame-height", "2mm"]
+    shape += ["--frame-edge", "chamfer 0.5mm", "--keyholes", "20x40mm"]
+    small = ["--size", "40x50mm", "--resolution", "120x150", "--depth", "1.5mm", "--margin", "5mm"]
+    assert run(["make", str(model), *small, *shape, "-o", str(folder)]) == 0
+    report = json.loads((folder / "report.json").read_text())
+    assert (report["stock"]["file"], report["stock"]["frame"]) == ("stock.step", "frame.step")
+    assert report["slab"]["frame"]["height"] == 2
+    # Over the frame, not into it.
+    rapids = re.findall(r"^G0.*Z([\d.]+)", (folder / "01-rough.nc").read_text(), re.M)
+    assert min(float(z) for z in rapids) > 2
+    solid = trimesh.load_mesh(folder / "panel.stl")
+    assert solid.is_volume
+    assert solid.bounds[1, 2] == 2
+    assert run(["verify", str(folder)]) == 0
+    assert run(["panel", str(folder), "--solid", "mould"]) == 2
+    assert run(["panel", str(folder), "--bed", "30x30mm"]) == 2

@@ -4,9 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import trimesh
 
 from relieffab.grid import Grid
-from relieffab.picture import OpenGLMissingError, panel_picture, render
+from relieffab.picture import OpenGLMissingError, panel_picture, render, solid_picture
+from relieffab.picture.above import heights_above, solid_heights
 from relieffab.relief.model import Relief
 
 
@@ -72,13 +74,16 @@ def test_a_renderer_that_will_not_open_is_named(monkeypatch):
         render.render_panel(slab(), np.zeros((4, 4, 3), np.uint8), Grid(4, 4, 1.0, (0, 4)))
 
 
-def test_panel_is_drawn_with_its_face_the_right_way_round(relief):
+@pytest.mark.parametrize("cols", [64, 61])  # rows of whole words, and of others
+def test_panel_is_drawn_with_its_face_the_right_way_round(cols):
     box = slab()
-    face = np.zeros((48, 64, 3), np.uint8)
-    face[:24, :32, 0] = face[:24, 32:, 1] = face[24:, :32, 2] = 255
-    face[24:, 32:] = 255
+    face = np.zeros((48, cols, 3), np.uint8)
+    half = cols // 2
+    face[:24, :half, 0] = face[:24, half:, 1] = face[24:, :half, 2] = 255
+    face[24:, half:] = 255
+    grid = Grid(48, cols, 12 / cols, (0.0, 9.0))
     try:
-        image = render.render_panel(box, face, relief.grid, width=320)
+        image = render.render_panel(box, face, grid, width=320)
     except OpenGLMissingError as missing:
         pytest.skip(str(missing))
     assert image.shape == (240, 320, 3)
@@ -88,3 +93,31 @@ def test_panel_is_drawn_with_its_face_the_right_way_round(relief):
     np.testing.assert_allclose(quarters, dominant, atol=3)
     # The table lies around it.
     assert 120 < image[3, 3].min() < 250
+
+
+def test_frame_and_holes_are_seen_and_the_relief_stays_as_fine_as_it_is(relief):
+    box = slab()
+    assert heights_above(relief, box) is relief.heights
+    step = trimesh.creation.box(bounds=[[0, 0, -3], [4, 9, 2]])
+    seen = heights_above(relief, trimesh.util.concatenate([trimesh.Trimesh(**vars(box)), step]))
+    x = relief.grid.node_axes()[0]
+    assert (seen[:, x < 3.9] == 2).all()
+    assert (seen[:, x > 4.1] == 0).all()
+    grid, heights = solid_heights(step, 0.1)
+    assert (grid.shape, grid.origin) == ((90, 40), (0.0, 9.0))
+    assert (heights == 2).all()
+
+
+def test_a_solid_has_a_picture_without_a_relief(monkeypatch):
+    monkeypatch.setattr(render, "_open_renderer", no_opengl)
+    image, method = solid_picture(slab(), 0.25)
+    assert (image.shape, method) == ((36, 48, 3), "hillshade")
+
+
+def test_a_round_slab_has_a_round_shadow():
+    disc = trimesh.creation.cylinder(radius=5, height=2)
+    x = np.arange(-20, 20, 0.1)
+    shadow = render._shadow(disc, x, x, 2.0, np.array([0.0, 0.0, 1.0]))
+    dark = shadow < (1 + shadow.min()) / 2
+    assert dark.sum() * 0.01 == pytest.approx(np.pi * 25, rel=0.03)
+    assert not dark[np.hypot(*np.meshgrid(x, x)) > 5.5].any()

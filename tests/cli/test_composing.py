@@ -1,0 +1,81 @@
+import json
+
+import numpy as np
+import pytest
+import trimesh
+
+from relieffab.cli.main import run
+from relieffab.relief.store import read_relief
+
+SMALL = ["--size", "40x30mm", "--depth", "1.5mm", "--margin", "3mm", "--up", "z"]
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory):
+    """Two reliefs of one model at different resolutions."""
+    home = tmp_path_factory.mktemp("compose")
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    v = np.array(ball.vertices) * [3, 2, 1.5] * (1 + 0.05 * np.sin(5 * ball.vertices[:, :1]))
+    trimesh.Trimesh(v, ball.faces, process=False).export(home / "ball.obj")
+    for name, pixels in (("fine", "160x120"), ("coarse", "100x75")):
+        more = ["--resolution", pixels, "-o", str(home / name)]
+        assert run(["relief", str(home / "ball.obj"), *SMALL, *more]) == 0
+    return home
+
+
+def compose(home, out, *more):
+    places = [f"{home / 'fine'}@5x5mm", f"{home / 'coarse'}@50x5mm"]
+    return run(["compose", *places, "--size", "95x40mm", *more, "-o", str(out)])
+
+
+def test_two_reliefs_become_one_panel_with_programs_and_template(folders, tmp_path, capsys):
+    out = tmp_path / "both"
+    holes = ["--holes", "2.5x2.5mm, 92.5x37.5mm", "--hole", "2mm", "--corner", "3mm"]
+    assert compose(folders, out, *holes) == 0
+    report = json.loads((out / "report.json").read_text())
+    assert [part["place_mm"] for part in report["reliefs"]] == [[5, 5], [50, 5]]
+    assert report["model"]["name"] == "ball.obj"
+    assert report["settings"]["depth"] == "1.5mm"
+    relief, fine = read_relief(out / "relief.tiff"), read_relief(folders / "fine" / "relief.tiff")
+    assert relief.grid.pitch == fine.grid.pitch
+    row, col = (round(v) for v in relief.grid.to_index(5 + fine.grid.origin[0], 35))
+    shape = fine.heights.shape
+    same = relief.heights[row : row + shape[0], col : col + shape[1]]
+    np.testing.assert_allclose(same, fine.heights, atol=1e-6)
+    assert run(["panel", str(out)]) == 0
+    solid = trimesh.load_mesh(out / "panel.stl")
+    assert solid.is_volume
+    assert solid.bounds.tolist() == [[0, 0, -12], [95, 40, 0]]
+    assert solid.euler_number == 2 - 2 * 2
+    assert run(["toolpath", str(out)]) == 0
+    assert run(["template", str(out)]) == 0
+    assert "carves the relief" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("places", "more", "word"),
+    [
+        (["fine@5x5mm", "coarse@20x5mm"], [], "overlaps"),
+        (["fine@5x5mm", "coarse@60x5mm"], [], "beyond the panel"),
+        (["fine@5x5mm", "coarse@50x5mm"], ["--frame", "9mm"], "off the stock's face"),
+        (["fine@5"], [], "FOLDER@XxY"),
+        (["fine"], [], "FOLDER@XxY"),
+        (["nowhere@5x5mm"], [], "holds no job"),
+        ([], [], "no relief to lay out"),
+    ],
+)
+def test_what_cannot_be_laid_out_is_refused(folders, tmp_path, capsys, places, more, word):
+    given = [str(folders / place) for place in places]
+    out = tmp_path / "none"
+    assert run(["compose", *given, "--size", "95x40mm", *more, "-o", str(out)]) == 2
+    assert word in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_walls_must_agree(folders, tmp_path, capsys):
+    steep = tmp_path / "steep"
+    more = ["--resolution", "100x75", "--wall-angle", "70deg", "-o", str(steep)]
+    assert run(["relief", str(folders / "ball.obj"), *SMALL, *more]) == 0
+    given = [f"{folders / 'fine'}@5x5mm", f"{steep}@50x5mm"]
+    assert run(["compose", *given, "--size", "95x40mm", "-o", str(tmp_path / "none")]) == 2
+    assert "differ in wall_angle" in capsys.readouterr().err
