@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab import profiles
+from relieffab.errors import InputError
 from relieffab.fittings import Frame, Hole, Keyhole
 from relieffab.job.settings import Job
 from relieffab.machine import Machine
@@ -24,8 +25,12 @@ def stock_of(job: Job) -> Stock:
     Raises
     ------
     InputError
-        If frame, corners or holes do not fit it or each other.
+        If frame, corners or holes do not fit it or each other, or what is given is of
+        none of them.
     """
+    for name, what in (("frame_edge", "frame"), ("countersink", "holes")):
+        if getattr(job, name) is not None and getattr(job, what) is None:
+            raise InputError(f"{name} is given, but no {what}", where=name, hint=f"--{what}, too")
     frame = None if job.frame is None else Frame(job.frame, job.frame_height, job.frame_edge)
     return Stock(
         *job.size,
