@@ -3,6 +3,7 @@
 Exit status: 0 done, 1 findings, 2 bad input or usage, 3 machine, 130 interrupted.
 """
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -43,11 +44,16 @@ def run(arguments: Sequence[str]) -> int:
     """Carry out one command line and return its exit status."""
     try:
         status = app(list(arguments), exit_on_error=False, print_error=True)
+        sys.stdout.flush()
     except CycloptsError:
         return 2
     except RelieffabError as error:
         print(f"relieffab: {error}", file=sys.stderr)
         return error.exit_status
+    except BrokenPipeError:
+        # Who read the output has seen enough; nothing more can be said there.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
     except OSError as error:
         print(f"relieffab: {error.strerror or error}\n  where: {error.filename}", file=sys.stderr)
         return 2

@@ -4,6 +4,10 @@ The difference between a triangle and the relief is linear on each piece of thei
 overlay.  Its largest value therefore lies at a node within the triangle or where an
 edge crosses one of the lattice's: all are looked at, so that the bound holds at
 every point, not at samples only.
+
+What is level at 0 is the panel's face, and stays it: there the bound is ten
+thousand times closer, or triangles would lean from the far corners of the face
+into the relief, shallow but wide.
 """
 
 from typing import Any, NamedTuple
@@ -19,6 +23,7 @@ Ints = NDArray[np.int64]
 
 FINER = 0.7  # each round's bound, of the last one's
 GRAIN = 1e-9  # mm: rounding, which no bound can be below
+STRICT = 1e4  # how much closer the bound is where the relief is at 0
 
 
 @kernel
@@ -27,8 +32,11 @@ def _ceil(a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _worst_node(heights, a, b, c):  # type: ignore[no-untyped-def]
-    """Largest distance of the nodes within a triangle from it, and that node."""
+def _worst_node(heights, strict, a, b, c):  # type: ignore[no-untyped-def]
+    """Largest distance of the nodes within a triangle from it, and that node.
+
+    Where the relief is at 0, distances count `strict` times.
+    """
     width = heights.shape[1]
     ax, ay = a % width, a // width
     bx, by, cx, cy = b % width - ax, b // width - ay, c % width - ax, c // width - ay
@@ -50,6 +58,8 @@ def _worst_node(heights, a, b, c):  # type: ignore[no-untyped-def]
         row, base = heights[ay + y], top + sy * y
         for x in range(first, last + 1):
             gap = abs(row[ax + x] - base - sx * x)
+            if row[ax + x] == 0.0:
+                gap *= strict
             if gap > worst:
                 worst, where = gap, (ay + y) * width + ax + x
     return worst, where
@@ -65,7 +75,7 @@ def _between(heights, i, j, f, across, down):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _worst_crossing(heights, used, a, b):  # type: ignore[no-untyped-def]
+def _worst_crossing(heights, strict, used, a, b):  # type: ignore[no-untyped-def]
     """Largest distance from the relief along an edge where it crosses the lattice's.
 
     The node that comes with it is the nearer one not used yet: one at least is not.
@@ -92,6 +102,8 @@ def _worst_crossing(heights, used, a, b):  # type: ignore[no-untyped-def]
                 i = min(int(y), len(heights) - 2)
                 h, near, far = _between(heights, i, line, y - i, across, down)
             gap = abs(h - top - s * rise)
+            if h == 0.0:
+                gap *= strict
             if gap > worst and not (used[near] and used[far]):
                 worst, where = gap, far if used[near] else near
     return worst, where
@@ -127,20 +139,20 @@ class Work(NamedTuple):
 
 
 @kernel
-def _judge(heights, work, t):  # type: ignore[no-untyped-def]
+def _judge(heights, strict, work, t):  # type: ignore[no-untyped-def]
     """Find how far triangle t is from the relief, and the node that would mend it."""
     a, b, c = work.corners[3 * t], work.corners[3 * t + 1], work.corners[3 * t + 2]
-    worst, where = _worst_node(heights, a, b, c)
+    worst, where = _worst_node(heights, strict, a, b, c)
     for p, q in ((a, b), (b, c), (c, a)):
         # From either side the same, to the last bit.
-        gap, node = _worst_crossing(heights, work.used, min(p, q), max(p, q))
+        gap, node = _worst_crossing(heights, strict, work.used, min(p, q), max(p, q))
         if gap > worst:
             worst, where = gap, node
     work.error[t], work.best[t] = worst, where
 
 
 @kernel
-def _refine(heights, bound, work, total):  # type: ignore[no-untyped-def]
+def _refine(heights, bound, strict, work, total):  # type: ignore[no-untyped-def]
     """Insert the worst node of each triangle out of bound, until none is."""
     error, best, used, waiting = work.error, work.best, work.used, work.waiting
     queue, fresh, count = work.queue, work.fresh, 0
@@ -159,7 +171,7 @@ def _refine(heights, bound, work, total):  # type: ignore[no-untyped-def]
             )
         for k in range(changed):
             s = fresh[k]
-            _judge(heights, work, s)
+            _judge(heights, strict, work, s)
             if error[s] > bound and not waiting[s]:
                 queue[count], waiting[s] = s, True
                 count += 1
@@ -175,10 +187,12 @@ def _grow(heights, bounds, work):  # type: ignore[no-untyped-def]
         work.used[corner] = True
     total = 2
     for t in range(total):
-        _judge(heights, work, t)
+        _judge(heights, 1.0, work, t)
     for bound in bounds:
-        total = _refine(heights, bound, work, total)
-    return total
+        total = _refine(heights, bound, 1.0, work, total)
+    for t in range(total):
+        _judge(heights, STRICT, work, t)
+    return _refine(heights, bounds[-1], STRICT, work, total)
 
 
 def grow(heights: Floats, bound: float) -> Ints:
@@ -189,7 +203,8 @@ def grow(heights: Floats, bound: float) -> Ints:
     heights : (n, m) ndarray
         mm.
     bound : float
-        Largest vertical distance, at nodes and between them, mm.
+        Largest vertical distance, at nodes and between them, mm; where the relief
+        is at 0, a ten thousandth of it.
 
     Returns
     -------

@@ -457,3 +457,9 @@ def test_a_framed_arched_panel_with_holes_is_made_and_proved(model, tmp_path):
     assert run(["verify", str(folder)]) == 0
     assert run(["panel", str(folder), "--solid", "mould"]) == 2
     assert run(["panel", str(folder), "--bed", "30x30mm"]) == 2
+
+
+def test_a_reader_that_leaves_is_no_fault_of_ours():
+    command = f"{sys.executable} -m relieffab machines | true"
+    ran = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+    assert ran.stderr == ""

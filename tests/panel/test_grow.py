@@ -47,3 +47,18 @@ def test_nodes_alone_do_not_tell_which_way_a_pixel_bends():
     h[0, 1] = -1.0
     triangles = {frozenset(t) for t in grow(h, 0.01).tolist()}
     assert triangles == {frozenset((0, 1, 3)), frozenset((0, 3, 2))}
+
+
+def test_the_face_stays_level_right_up_to_the_cut():
+    """A dimple shallower than the bound in a wide face: no triangle leans into it from afar."""
+    heights = np.zeros((60, 80))
+    heights[30:33, 40:44] = -0.5
+    heights[29:34, 39:45] = np.minimum(heights[29:34, 39:45], -0.01)
+    faces = grow(heights, 0.02)
+    z, (row, col) = heights.ravel()[faces], np.divmod(faces, 80)
+    cut = (z < 0).any(axis=1)
+    assert cut.any()
+    assert row[cut].min() >= 28
+    assert row[cut].max() <= 34
+    assert col[cut].min() >= 38
+    assert col[cut].max() <= 45
