@@ -17,6 +17,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "errors": ["FindingsError", "InputError", "MachineError", "RelieffabError"],
         "gcode.estimate": ["estimate"],
         "gcode.read": ["read_program"],
+        "gcode.setup": ["Setup"],
+        "gcode.slab": ["Slab"],
         "gcode.verify": ["Verification", "verify"],
         "gcode.write": ["write_program"],
         "grbl.port": ["open_port"],

@@ -15,7 +15,10 @@ from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
-TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
+TOOLPATH_SETTINGS = (
+    *("machine", "material", "rough", "finish", "lines", "stepover"),
+    *("units", "work_zero", "work_zero_z", "cutter_change"),
+)
 TEMPLATE_SETTINGS = ("paper",)
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (

@@ -131,7 +131,9 @@ def columns(
 
 
 @kernel
-def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape) -> float:
+def lower_row(
+    row: NDArray[np.float32], start: float, pitch: float, move: Move, shape: Shape
+) -> float:
     """Lower one row's part under a move; give the deepest bite, mm.
 
     Parameters
@@ -176,13 +178,12 @@ def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape)
 
 @parallel_kernel
 def sweep(
-    heights: Floats,
+    heights: NDArray[np.float32],
     points: Floats,
-    rapid: NDArray[np.bool_],
     shape: Shape,
     pitch: float,
     order: Ints,
-) -> Floats:
+) -> NDArray[np.float32]:
     """Lower the lattice by a cutter that goes from point to point.
 
     Each band of rows belongs to one thread and sees the moves in their order,
@@ -195,8 +196,6 @@ def sweep(
     points : (n, 3) ndarray
         X to the right of node [0, 0], Y down the rows from it, and Z, mm.
         Point 0 is where the first move starts.
-    rapid : (n,) ndarray of bool
-        Of the move to each point.
     shape : tuple of float
         From `profile_numbers`.
     pitch : float
@@ -206,12 +205,12 @@ def sweep(
 
     Returns
     -------
-    (bands, 2) ndarray
-        The deepest bite a rapid takes out of each band, mm, and which move it is.
+    (bands, n) ndarray
+        The deepest bite each move takes out of each band, mm.
     """
     rows, cols = heights.shape
     radius = shape[5]
-    bites = np.zeros((len(order), 2))
+    bites = np.zeros((len(order), len(points)), np.float32)
     for turn in prange(len(order)):
         band = order[turn]
         first, last = band * BAND_ROWS, min((band + 1) * BAND_ROWS, rows) - 1
@@ -237,6 +236,5 @@ def sweep(
                     continue
                 move = (i * pitch - y0, tx, ty, length, z0, z1, descent, reach)
                 bite = lower_row(heights[i, j0 : j1 + 1], j0 * pitch - x0, pitch, move, shape)
-                if rapid[k] and bite > bites[turn, 0]:
-                    bites[turn, 0], bites[turn, 1] = bite, k
+                bites[turn, k] = max(bites[turn, k], bite)
     return bites

@@ -10,6 +10,8 @@ import numpy as np
 
 from relieffab import profiles
 from relieffab.cutter import Cutter
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.write import check_change
 from relieffab.grid import Grid
 from relieffab.job import solids
 from relieffab.job.settings import Job
@@ -42,7 +44,7 @@ THUMBNAIL = 512  # pixels wide
 
 def stock_of(job: Job) -> Stock:
     """Return the slab a job is carved from."""
-    return Stock(job.size[0], job.size[1], job.thickness)
+    return Stock.zeroed((*job.size, job.thickness), job.work_zero, job.work_zero_z)
 
 
 def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
@@ -66,6 +68,12 @@ def carving_of(job: Job) -> Carving:
     )
 
 
+def setup_of(job: Job, depth: float) -> Setup:
+    """Return what the programs of a relief are written for, and judged by."""
+    machine, material = profiles.machine(job.machine), profiles.material(job.material)
+    return Setup(machine, material, stock_of(job), depth, job.units)
+
+
 def check(job: Job) -> None:
     """Refuse what can be seen to fail before any work is done.
 
@@ -75,10 +83,11 @@ def check(job: Job) -> None:
         If a profile is unknown, or machine, cutters, stock and depth do not fit.
     """
     carving_of(job)
-    profiles.material(job.material)
     solids.check(job)
     cutters = cutters_of(job)
-    check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
+    setup = setup_of(job, job.depth)
+    check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
+    check_tools(setup.machine, cutters, setup.stock, job.depth)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 

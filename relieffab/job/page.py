@@ -57,6 +57,12 @@ def _programs(parts: list[dict[str, Any]]) -> str:
     return _table(["program", "cutter", "lines", "time", "bounds, mm"], rows)
 
 
+def _zero(slab: Mapping[str, Any]) -> str:
+    x, y, z = slab["work_zero"]
+    level = "on the stock's face" if z == 0 else "under the stock"
+    return f"{x:g} mm right and {y:g} mm up from the stock's near left corner, {level}"
+
+
 def _verdict(part: Mapping[str, Any]) -> str:
     name, text = ("ok", "carves the relief") if part["ok"] else ("bad", "does not carve the relief")
     facts = (
@@ -94,7 +100,7 @@ def page(report: Mapping[str, Any]) -> str:
     if "programs" in report:
         parts += [
             "<h2>Programs, in order</h2>",
-            "<p>Work zero is the near left corner of the stock, Z0 on its face.</p>",
+            f"<p>Work zero: {_zero(report['slab'])}.</p>",
             _programs(report["programs"]),
         ]
     for solid in SOLIDS:

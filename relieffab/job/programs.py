@@ -8,16 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from relieffab import profiles
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
 from relieffab.gcode.verify import Verification, verify
 from relieffab.gcode.write import write_program
-from relieffab.job.chain import stock_of
+from relieffab.job.chain import setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import Machine, Material
+from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 from relieffab.toolpath.path import Toolpath
@@ -30,7 +32,7 @@ NUMBERS = {"rough": 1, "finish": 2, "lines": 3}
 def write(
     paths: Sequence[Toolpath], relief: Relief, job: Job, report: Mapping[str, Any], folder: Path
 ) -> Part:
-    """Write one program a cutter.
+    """Write one program a cutter, or one that changes cutters.
 
     Returns
     -------
@@ -38,34 +40,52 @@ def write(
         report.json's `programs`, `machine`, `material`, and `slab`: enough to
         judge the programs anywhere, whatever the profiles there say.
     """
-    machine, stock = profiles.machine(job.machine), stock_of(job)
-    material = profiles.material(job.material)
-    notes = material_notes(material, paths)
-    header = {"model": report["model"]["name"], "material": material.title, **_numbered(notes)}
+    setup = setup_of(job, relief.depth)
+    slab = Slab.whole(relief.grid, setup.stock)
+    notes = material_notes(setup.material, paths)
+    header = {**_origin(report), **_numbered(notes)}
     parts = []
-    for path in paths:
-        name = f"{NUMBERS[path.name]:02d}-{path.name}.nc"
-        text = write_program(path, machine, stock, depth=relief.depth, header=header)
+    for name, several in _files(paths, job):
+        text = write_program(several, setup, slab, header=header)
         (folder / name).write_text(text, encoding="ascii", newline="\n")
-        program = read_program(text, name=name)
-        parts.append(
+        program = read_program(text, name=name, dialect=setup.post.dialect)
+        parts += [
             {
                 "file": name,
                 "cutter": asdict(path.cutter),
                 "rpm": path.rpm,
                 "lines": text.count("\n"),
-                "seconds": round(estimate(program, machine), 1),
+                "seconds": round(estimate(part, setup.machine), 1),
                 "cut_mm": round(path.cutting_length, 1),
-                "bounds_mm": np.round(program.bounds, 4).tolist(),
+                "bounds_mm": np.round(part.bounds, 4).tolist(),
                 "sha256": _hash(folder / name),
             }
-        )
+            for path, part in zip(several, program.by_tool(), strict=True)
+        ]
     return {
         "programs": parts,
-        "machine": asdict(machine),
-        "material": {**asdict(material), "notes": notes},
-        "slab": asdict(stock),
+        "units": setup.units,
+        "machine": asdict(setup.machine),
+        "material": {**asdict(setup.material), "notes": notes},
+        "slab": asdict(setup.stock),
     }
+
+
+def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath]]]:
+    if job.cutter_change == "pause":
+        return [("programs.nc", list(paths))]
+    return [(f"{NUMBERS[path.name]:02d}-{path.name}.nc", [path]) for path in paths]
+
+
+def _origin(report: Mapping[str, Any]) -> dict[str, str]:
+    """Say what the programs come from, so that the job can be done again."""
+    model, settings = report["model"], report["settings"]
+    facts = {"model": model["name"]}
+    if model.get("sha256"):
+        facts["model sha256"] = model["sha256"]
+    if report.get("relief", {}).get("sha256"):
+        facts["relief sha256"] = report["relief"]["sha256"]
+    return facts | {"settings": ", ".join(f"{name}={text}" for name, text in settings.items())}
 
 
 def material_notes(material: Material, paths: Sequence[Toolpath]) -> list[str]:
@@ -92,7 +112,9 @@ def _hash(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def judge(relief: Relief, report: Mapping[str, Any], folder: Path) -> Verification:
+def judge(
+    relief: Relief, report: Mapping[str, Any], folder: Path, progress: Progress = silent
+) -> Verification:
     """Judge the programs on disk with the cutters and machine they were made for.
 
     Raises
@@ -101,14 +123,13 @@ def judge(relief: Relief, report: Mapping[str, Any], folder: Path) -> Verificati
         If a program is missing, or the report does not hold what it takes.
     """
     try:
-        machine = Machine(**{**report["machine"], **_tuples(report["machine"])})
-        stock = Stock(**{**report["slab"], "work_zero": tuple(report["slab"]["work_zero"])})
+        setup = _setup(report, relief.depth)
         cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
-        files = [folder / str(part["file"]) for part in report["programs"]]
+        files = [folder / name for name in _names(report)]
     except (KeyError, TypeError, ValueError) as fault:
         raise InputError(
             "the report does not say what its programs were made for",
-            expected="machine, slab, and a cutter for each program",
+            expected="machine, material, slab, and a cutter for each program",
             found=repr(fault),
             where=str(folder / "report.json"),
             hint="relieffab toolpath writes them again",
@@ -117,8 +138,26 @@ def judge(relief: Relief, report: Mapping[str, Any], folder: Path) -> Verificati
     for path in files:
         if not path.is_file():
             raise InputError("a program of the job is missing", where=str(path))
-        programs.append(read_program(path.read_text(encoding="latin-1"), name=path.name))
-    return verify(programs, cutters, relief, stock, machine)
+        text = path.read_text(encoding="latin-1")
+        programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
+    return verify(programs, cutters, relief, setup, progress=progress)
+
+
+def _names(report: Mapping[str, Any]) -> list[str]:
+    """Name the files of the programs, each once, in their order."""
+    return list(dict.fromkeys(str(part["file"]) for part in report["programs"]))
+
+
+def _setup(report: Mapping[str, Any], depth: float) -> Setup:
+    """Read back what programs were made for."""
+    material = {key: value for key, value in report["material"].items() if key != "notes"}
+    return Setup(
+        Machine(**{**report["machine"], **_tuples(report["machine"])}),
+        Material(**material),
+        Stock(**{**report["slab"], "work_zero": tuple(report["slab"]["work_zero"])}),
+        depth,
+        report["units"],
+    )
 
 
 def _tuples(machine: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
@@ -167,6 +206,7 @@ def verification_part(verdict: Verification, more: Sequence[str] = ()) -> Part:
         "excess_p99_mm": round(verdict.excess_p99_mm, 5),
         "within_tolerance": round(verdict.within_tolerance, 5),
         "tolerance_mm": verdict.tolerance_mm,
+        "air_cutting": round(verdict.air_cutting, 4),
         "ok": not findings,
         "findings": findings,
     }

@@ -27,6 +27,7 @@ KEYS = (
     "machine",
     "material",
     "slab",
+    "units",
     "programs",
     "verification",
     "picture",

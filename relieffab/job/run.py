@@ -112,7 +112,7 @@ def _prove(
     with _timed(report, "programs", progress):
         report.update(programs.write(paths, relief, job, report, folder))
     with _timed(report, "verify", progress):
-        verdict = programs.judge(relief, report, folder)
+        verdict = programs.judge(relief, report, folder, progress)
         report["verification"] = programs.verification_part(verdict)
     if not verdict.ok:
         raise FindingsError(

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from relieffab import units
 from relieffab.errors import InputError, suggest
@@ -10,6 +10,7 @@ from relieffab.layers.lines.names import NAMES, USUAL, chosen
 from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN, known, part
 from relieffab.relief.names import NAMES as METHODS
+from relieffab.stock import LEVELS, PLACES
 from relieffab.template.pages import PAPERS
 
 
@@ -196,6 +197,17 @@ SETTINGS = (
         "no",
         "yes: solve again without the forms that the finest cutter cannot reach",
     ),
+    Setting("units", _one_of("mm", "in"), "mm", "of the programs: mm or in"),
+    Setting("work_zero", _one_of(*PLACES), "near-left", "on the stock: " + ", ".join(PLACES)),
+    Setting(
+        "work_zero_z", _one_of(*LEVELS), "top", "work zero's height: top or bottom of the stock"
+    ),
+    Setting(
+        "cutter_change",
+        _one_of("files", "pause"),
+        "files",
+        "files: one program a cutter; pause: one program that stops for each (M6)",
+    ),
     Setting("mesh_tolerance", _positive, "0.02mm", "largest error of the panel's triangles"),
     Setting(
         "solid",
@@ -254,6 +266,10 @@ class Job:
     lines: str
     stepover: float | None
     reachable: str
+    units: Literal["mm", "in"]
+    work_zero: str
+    work_zero_z: str
+    cutter_change: str
     mesh_tolerance: float
     solid: str
     draft: float

@@ -6,8 +6,6 @@
 import json
 import sys
 
-import gcode
-
 
 class Canon:
     """Takes the interpreter's calls; those of no interest here do nothing."""
@@ -51,7 +49,14 @@ class Canon:
         self.moves.append(["arc", self.line, x, y, z, centre_x, centre_y, turns])
 
 
-canon = Canon(sys.argv[1])
-status, line = gcode.parse(sys.argv[2], canon)
-fault = "" if status <= gcode.MIN_ERROR else f"line {line}: {gcode.strerror(status)}"
-json.dump({"fault": fault, "moves": canon.moves}, sys.stdout)
+def main(folder, program):
+    import gcode
+
+    canon = Canon(folder)
+    status, line = gcode.parse(program, canon)
+    fault = "" if status <= gcode.MIN_ERROR else f"line {line}: {gcode.strerror(status)}"
+    json.dump({"fault": fault, "moves": canon.moves}, sys.stdout)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

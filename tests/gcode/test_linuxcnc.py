@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 
 from relieffab.cutter import Cutter
+from relieffab.gcode.dialect import DIALECTS, GRBL
 from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import write_program
-from relieffab.machine import Machine
+from relieffab.grid import Grid
+from relieffab.machine import Machine, Material
 from relieffab.stock import Stock
 from relieffab.toolpath.path import Toolpath
 
@@ -21,9 +25,10 @@ SCRIPT = Path(__file__).with_name("linuxcnc_canon.py")
 
 def present():
     try:
-        return not subprocess.run([PYTHON, "-c", "import gcode"], capture_output=True).returncode
+        found = subprocess.run([PYTHON, "-c", "import gcode"], capture_output=True, check=False)
     except OSError:
         return False
+    return found.returncode == 0
 
 
 pytestmark = pytest.mark.skipif(
@@ -71,15 +76,15 @@ def along(start, end, centre, turns, share):
     if abs(sweep) < 1e-9 or abs(abs(sweep) - 2 * pi) < 1e-9:
         sweep = 2 * pi if turns > 0 else -2 * pi
     c, s = np.cos(sweep * share), np.sin(sweep * share)
-    spin = centre + [c * a[0] - s * a[1], s * a[0] + c * a[1]]
+    spin = centre + np.array([c * a[0] - s * a[1], s * a[0] + c * a[1]])
     return np.append(spin, start[2] + (end[2] - start[2]) * share)
 
 
-def same_path(text, folder):
+def same_path(text, folder, dialect=GRBL):
     """Compare both readings of a program: same lines, same places within 1 um, same rapids."""
     moves, fault = interpreted(text, folder)
     assert fault == ""
-    read = read_program(text)
+    read = read_program(text, dialect=dialect)
     points, lines = places(moves, read)
     assert lines.tolist() == read.line.tolist()
     assert np.abs(points - read.points).max() < 1e-3
@@ -125,14 +130,50 @@ def test_it_refuses_what_our_reader_refuses(body, tmp_path):
         read_program(f"{HEAD}{body}\nM30\n")
 
 
-def test_a_written_program(tmp_path):
-    rng = np.random.default_rng(5)
-    points = rng.random((400, 3)) * [110, 80, 3.9] + [5, 5, -3.9]
-    feed = rng.choice([120.0, 333.3, 600.0], 400)
+BALL = Cutter("ball", "ball", 2.0, 6.0, 9.0, 800.0, 300.0, 8000.0)
+TRAVEL, RATE = (200.0, 160.0, 40.0), (1500.0, 1200.0, 1500.0)
+
+
+def setup_of(dialect, units, zero=("near-left", "top")):
+    machine = Machine("mill", "", TRAVEL, RATE, (30.0,) * 3, (0.0, 1e4), 1e4, dialect=dialect)
+    stock = Stock.zeroed((120.0, 90.0, 10.0), *zero)
+    return Setup(machine, Material("wood", "Wood", 1.0, 1.0), stock, 4.0, units)
+
+
+def scattered(seed, count=400):
+    rng = np.random.default_rng(seed)
+    points = rng.random((count, 3)) * [110, 80, 3.9] + [5, 5, -3.9]
+    feed = rng.choice([120.0, 333.3, 600.0], count)
     points[0, 2], feed[0] = 5.0, np.inf
-    ball = Cutter("ball", "ball", 2.0, 6.0, 1.0, 800.0, 300.0, 8000.0)
-    machine = Machine("mill", "", (200.0, 160.0, 40.0), (1500.0,) * 3, (30.0,) * 3, (0.0, 1e4), 1e4)
-    stock = Stock(120.0, 90.0, 10.0, work_zero=(60.0, 45.0, 0.0))
-    text = write_program(Toolpath("finish", points, feed, ball, 8000.0), machine, stock, depth=4.0)
-    read = same_path(text, tmp_path)
-    assert len(read.points) == 401
+    return Toolpath("finish", points, feed, BALL, 8000.0)
+
+
+def rings():
+    """Level circles both ways, as strokes and contours give them."""
+    angle = np.linspace(0, 2 * np.pi, 361)
+    points = [[30.0, 40.0, 5.0]]
+    feed = [np.inf]
+    for k, (radius, way) in enumerate([(2.0, 1), (7.3, -1), (19.0, 1)]):
+        x, y = 30 + radius * np.cos(way * angle), 40 + radius * np.sin(way * angle)
+        ring = np.column_stack([x, y, np.full(len(x), -0.5 - k)])
+        points += [[x[0], y[0], 5.0], *ring, [x[-1], y[-1], 5.0]]
+        feed += [np.inf, 300.0, *[600.0] * (len(x) - 1), np.inf]
+    return Toolpath("lines", np.array(points), np.array(feed), BALL, 8000.0)
+
+
+@pytest.mark.parametrize("units", ["mm", "in"])
+@pytest.mark.parametrize("dialect", sorted(DIALECTS))
+def test_written_programs(dialect, units, tmp_path):
+    if dialect == "marlin":
+        pytest.skip("LinuxCNC does not read Marlin's dialect")
+    setup = setup_of(dialect, units, ("centre", "bottom"))
+    many = [scattered(5), rings()] if "M6" in DIALECTS[dialect].codes else [rings()]
+    slab = Slab.whole(Grid(90, 120, 1.0, (0.0, 90.0)), setup.stock)
+    text = write_program(many, setup, slab)
+    assert 6 <= sum("I" in line and line[0] in "GX" for line in text.splitlines()) <= 12
+    read = same_path(text, tmp_path, DIALECTS[dialect])
+    assert len(read.by_tool()) == len(many)
+    points = read.by_tool()[-1].on_panel(setup.stock)
+    low = points[points[:, 2] < 0]
+    radius = np.hypot(low[:, 0] - 30, low[:, 1] - 40)
+    assert np.abs(radius[:, None] - [2.0, 7.3, 19.0]).min(axis=1).max() < 0.002

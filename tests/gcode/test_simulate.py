@@ -9,7 +9,8 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.program import Program
-from relieffab.gcode.simulate import lattice, simulate
+from relieffab.gcode.simulate import simulate
+from relieffab.gcode.slab import lattice
 from relieffab.grid import Grid
 from relieffab.stock import Stock
 
@@ -44,6 +45,7 @@ def program(points, rapid=(), name="job.nc"):
         np.ones(count),
         np.zeros(count + 1),
         count,
+        np.zeros(count, np.int64),
     )
 
 
@@ -142,7 +144,7 @@ def test_chunks_join_without_a_seam(monkeypatch):
     points = rng.uniform([2, 2, -3], [16, 12, 1], (40, 3))
     whole = carve(points, CUTTERS[1])
     told = []
-    monkeypatch.setattr("relieffab.gcode.simulate.CHUNK", 7)
+    monkeypatch.setattr("relieffab.gcode.slab.CHUNK", 7)
     parts = carve(points, CUTTERS[1], progress=lambda *words: told.append(words))
     assert np.array_equal(whole.heights, parts.heights)
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
@@ -162,13 +164,13 @@ def test_programs_follow_one_another_from_one_work_zero():
 def test_a_rapid_through_material_is_told_where():
     points = [[4, 6, 5], [4, 6, -1], [4, 6, 5], [14, 6, 5], [14, 6, -2], [5, 6, -2]]
     run = program(points, rapid=[0, 2, 3, 5])
-    (text,) = simulate([run], [CUTTERS[0]], GRID, STOCK).bites
+    (text,) = simulate([run], [CUTTERS[0]], GRID, STOCK).crashes
     assert text == "job.nc line 6: a rapid goes through 2.000 mm of material"
 
 
 def test_rapids_in_the_air_and_in_a_cut_groove_bite_nothing():
     points = [[4, 6, 0], [4, 6, -2], [14, 6, -2], [4, 6, -2], [4, 6, 5]]
-    assert simulate([program(points, rapid=[0, 3, 4])], [CUTTERS[0]], GRID, STOCK).bites == ()
+    assert simulate([program(points, rapid=[0, 3, 4])], [CUTTERS[0]], GRID, STOCK).crashes == ()
 
 
 def test_the_lattice_holds_cuts_beyond_the_relief_but_not_beyond_the_stock():
