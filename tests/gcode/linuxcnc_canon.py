@@ -3,8 +3,11 @@
 `gcode` is LinuxCNC's own module; it calls back for every move it would make, in inches.
 """
 
+import ctypes
 import json
+import os
 import sys
+from pathlib import Path
 
 
 class Canon:
@@ -49,7 +52,19 @@ class Canon:
         self.moves.append(["arc", self.line, x, y, z, centre_x, centre_y, turns])
 
 
+def load_tools(folder):
+    """Give the interpreter cutters 1 to 3, as a running LinuxCNC would."""
+    table = Path(folder, "tool.tbl")
+    table.write_text("".join(f"T{n} P{n} D2 Z0 ;\n" for n in (1, 2, 3)))
+    os.environ["HOME"] = folder  # where it keeps the table it shares
+    tools = ctypes.CDLL("libtooldata.so.0")
+    tools._Z13tooldata_initb(False)
+    tools._Z17tool_mmap_creatorPK13EMC_TOOL_STATi(None, 0)
+    tools._Z13tooldata_loadPKcPPc(str(table).encode(), None)
+
+
 def main(folder, program):
+    load_tools(folder)
     import gcode
 
     canon = Canon(folder)
