@@ -1,6 +1,7 @@
 """Machine and Material: what can move, how fast, and how willingly the stock is cut."""
 
 from dataclasses import dataclass
+from math import inf
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
@@ -34,6 +35,8 @@ class Machine:
         Moves the controller looks ahead.
     line_rate : float
         Lines of G-code it parses a second.
+    baud : float
+        Bits a second of its serial line, ten to a character.
     dialect : str
     source : str
         Where these values come from.
@@ -51,6 +54,7 @@ class Machine:
     rx_buffer: int = 128
     planner_blocks: int = 15
     line_rate: float = 400.0
+    baud: float = 115200.0
     dialect: str = "grbl"
     source: str = ""
 
@@ -71,6 +75,13 @@ class Machine:
                 found=f"{slow:g} to {fast:g} rpm",
                 where=f"machine {self.name}",
             )
+        for name in ("planner_blocks", "line_rate", "baud", "junction_deviation"):
+            if not 0 < getattr(self, name) < inf:
+                raise InputError(
+                    f"{name} must be more than 0",
+                    found=f"{getattr(self, name)}",
+                    where=f"machine {self.name}",
+                )
         if self.safe_height <= 0:
             raise InputError(
                 "the safe height must lie above the panel's face",

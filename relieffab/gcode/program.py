@@ -35,6 +35,8 @@ class Program:
         Seconds waited before each move, and after the last.
     line_count : int
         Lines of the text.
+    sent : (n,) ndarray of int
+        Characters of that line as they are sent, its end included.
     tool : (n,) ndarray of int
         Number of the cutter that makes each move; 0 before any was called for.
     blind_line : int
@@ -48,13 +50,14 @@ class Program:
     spindle: Floats
     dwell: Floats
     line_count: int
+    sent: NDArray[np.int64]
     tool: NDArray[np.int64]
     blind_line: int = 0
 
     def __post_init__(self) -> None:
         count = len(self.points)
         shapes = {"points": (count, 3), "feed": (count,), "line": (count,)}
-        shapes |= {"spindle": (count,), "dwell": (count + 1,), "tool": (count,)}
+        shapes |= {"spindle": (count,), "dwell": (count + 1,), "sent": (count,), "tool": (count,)}
         for name, want in shapes.items():
             array = getattr(self, name)
             if array.shape != want:
@@ -108,6 +111,7 @@ class Program:
             self.spindle[start:stop],
             dwell,
             self.line_count,
+            self.sent[start:stop],
             self.tool[start:stop],
             self.blind_line if start == 0 else 0,
         )

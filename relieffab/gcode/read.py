@@ -88,6 +88,8 @@ class _Interpreter:
         self.ends = {"M2", "M30", dialect.end} & dialect.codes
         self.tool = self.selected = 0
         self.tools: list[int] = []
+        self.size = 0
+        self.sizes: list[int] = []
         self.number = 0
         self.modes: dict[str, str] = {}
         self.named: dict[str, str] = {}
@@ -118,7 +120,7 @@ class _Interpreter:
             return False
         if motion:
             self.modes["motion"] = "G" + motion
-        self.number, self.feed = number, rate
+        self.number, self.feed, self.size = number, rate, match.end() + 1
         at = self.at
         target = float(x) if x else at[0], float(y) if y else at[1], float(z) if z else at[2]
         self._record(target, inf if rapid else rate)
@@ -127,6 +129,7 @@ class _Interpreter:
     def block(self, words: Words, number: int) -> None:
         """Run one line: values, then modes, dwell and motion, in Grbl's order."""
         self.number = number
+        self.size = sum(1 + len(word[1]) for word in words) + 1
         if self.ended:
             raise InputError("there is code after the program's end", where=self.where)
         values: dict[str, float] = {}
@@ -291,6 +294,7 @@ class _Interpreter:
         self.feeds.append(feed)
         self.lines.append(self.number)
         self.spindles.append(self.turning)
+        self.sizes.append(self.size)
         self.tools.append(self.tool)
 
     def _arc(
@@ -334,6 +338,7 @@ class _Interpreter:
             np.array(self.spindles, dtype=float),
             dwell,
             line_count,
+            np.array(self.sizes, dtype=np.int64),
             np.array(self.tools, dtype=np.int64),
             self.blind_line,
         )

@@ -1,6 +1,6 @@
 """Toolpaths as text: one program for a machine, read back and judged before it is given out."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -57,10 +57,20 @@ def write_program(
     several = [paths] if isinstance(paths, Toolpath) else list(paths)
     _check(several, setup)
     body = list(_body(several, setup))
-    program = read_program("\n".join(body), dialect=setup.post.dialect)
+    program = _read(body, setup)
     _guard(several, program, setup, slab)
     head = comments(several, program, setup, header or {})
     return "\n".join([*head, *body]) + "\n"
+
+
+def foretold(path: Toolpath, setup: Setup) -> Program:
+    """Read a toolpath as it would be written, limits aside."""
+    _check([path], setup)
+    return _read(_body([path], setup), setup)
+
+
+def _read(body: Iterable[str], setup: Setup) -> Program:
+    return read_program("\n".join(body), dialect=setup.post.dialect)
 
 
 def check_change(cutters: int, setup: Setup) -> None:

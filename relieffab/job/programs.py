@@ -11,6 +11,7 @@ import numpy as np
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.estimate import estimate
+from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
@@ -42,7 +43,10 @@ def write(
     """
     setup = setup_of(job, relief.depth)
     slab = Slab.whole(relief.grid, setup.stock)
-    notes = material_notes(setup.material, paths)
+    fit = {path.name: paced(path, setup) for path in paths}
+    paths = [one.path for one in fit.values()]
+    starving = [one.warning for one in fit.values() if one.warning]
+    notes = [*material_notes(setup.material, paths), *starving]
     header = {**_origin(report), **_numbered(notes)}
     parts = []
     for name, several in _files(paths, job):
@@ -56,6 +60,8 @@ def write(
                 "rpm": path.rpm,
                 "lines": text.count("\n"),
                 "seconds": round(estimate(part, setup.machine), 1),
+                "starved": round(fit[path.name].pace.starved, 4),
+                "simplified_mm": fit[path.name].tolerance,
                 "cut_mm": round(path.cutting_length, 1),
                 "bounds_mm": np.round(part.bounds, 4).tolist(),
                 "sha256": _hash(folder / name),

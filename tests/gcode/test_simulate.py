@@ -45,6 +45,7 @@ def program(points, rapid=(), name="job.nc"):
         np.ones(count),
         np.zeros(count + 1),
         count,
+        np.ones(count, np.int64),
         np.zeros(count, np.int64),
     )
 
