@@ -17,7 +17,7 @@ from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain, nodes, tip_surface
 
 PEER_POINTS = 2000
-TIN_ERROR = 0.001  # mm
+TIN_ERROR = 0.002  # mm
 
 
 def relief(grid):
