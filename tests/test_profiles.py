@@ -24,7 +24,7 @@ def own(tmp_path, monkeypatch):
     ("kind", "read", "count"),
     [
         ("machines", profiles.machine, 11),
-        ("cutters", profiles.cutter, 8),
+        ("cutters", profiles.cutter, 16),
         ("materials", profiles.material, 8),
     ],
 )
@@ -68,6 +68,19 @@ def test_units_are_read(own):
     assert (cutter.diameter, cutter.feed, cutter.flute_length) == (6.35, 600, 22)
     own("machines", "mine", 'inherits = "minimill"\ntravel = ["12cm", 120, "60mm"]')
     assert profiles.machine("mine").travel == (120, 120, 60)
+
+
+def test_a_form_cutter_is_read_with_its_points(own):
+    own(
+        "cutters",
+        "leaf",
+        'title = "Leaf"\nshape = "form"\ndiameter = 3\n'
+        'points = [[0, 0], ["0.5mm", 0.1], [1.5, 2]]\n'
+        'flute_length = 4\nstickout = "1in"\nstepdown = 1\nfeed = 800\nplunge = 200\nrpm = 9000',
+    )
+    leaf = profiles.cutter("leaf")
+    assert leaf.points == ((0, 0), (0.5, 0.1), (1.5, 2))
+    assert leaf.stickout == 25.4
 
 
 def test_a_users_profile_overrides_and_may_inherit_its_own_name(own):

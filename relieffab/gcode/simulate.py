@@ -1,7 +1,7 @@
 """A virtual stock: what is left of it once programs have run."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,17 +92,16 @@ def simulate(
 def _rubs(slab: Slab, program: Program, cutter: Cutter, points: Floats) -> list[str]:
     """Find where the shank, which does not cut, would be pressed into what is left.
 
-    It begins where the flutes end and is as wide as they are.  The cutter clears its
-    own way, so all that it will have cut is taken away first.
+    It begins where the flutes end.  The cutter goes first: what it takes away is no
+    longer in the shank's way.
     """
     shank = points + np.array([0.0, 0.0, cutter.flute_length])
     if not (shank[:, 2] < -TOUCH).any():
         return []
     left = slab.copy()
     left.cut(points, cutter)
-    plain = replace(
-        cutter, shape="flat", corner_radius=0.0, tip_diameter=0.0, angle=0.0, name="shank"
-    )
+    width = 2 * cutter.shank_radius
+    plain = Cutter("shank", "flat", width, cutter.flute_length, 1.0, 1.0, 1.0, 1.0)
     return _told(program, left.cut(shank, plain), f"the shank of {cutter.name} rubs through")
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
-from relieffab.gcode.sweep import BAND_ROWS, profile_numbers, sweep
+from relieffab.gcode.sweep import BAND_ROWS, profile_numbers, profile_points, sweep
 from relieffab.grid import Grid
 from relieffab.progress import Progress, silent
 from relieffab.stock import Stock
@@ -75,11 +75,11 @@ class Slab:
         bands = -(-self.heights.shape[0] // BAND_ROWS)
         # Scattered, so that threads with a share of them each have as much to do.
         order = np.argsort(np.arange(bands) * 0.6180339887498949 % 1.0)
-        shape = profile_numbers(cutter)
+        shape, form = profile_numbers(cutter), profile_points(cutter)
         bites = np.zeros(len(points))
         for start in range(1, len(points), CHUNK):
             run = local[start - 1 : start + CHUNK]
-            found = sweep(self.heights, run, shape, self.grid.pitch, order)
+            found = sweep(self.heights, run, shape, form, self.grid.pitch, order)
             bites[start : start + CHUNK] = found[:, 1:].max(axis=0)
             progress("carving", float(way[min(start + CHUNK, len(way)) - 1]), float(way[-1]), "mm")
         return bites

@@ -331,7 +331,7 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--depth", "25mm", "--thickness", "40mm"], "flute"),
         (["--machine", "3018-provr"], "did you mean 3018-prover"),
         (["--material", "soft-wood"], "did you mean softwood"),
-        (["--finish", "ball-2"], "ball-1"),
+        (["--finish", "ball-11"], "ball-1"),
         (["--view", "frnt"], "did you mean front"),
         (["--margin", "45mm"], "margin"),
         (["--resolution", "1024"], "1024x768"),

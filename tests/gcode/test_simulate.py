@@ -1,5 +1,6 @@
 """Grooves whose shape is known, and a slow twin that samples every move densely."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numba
@@ -28,6 +29,8 @@ CUTTERS = [
     cutter("vee", angle=30.0, tip_diameter=0.4),
     cutter("tapered ball", angle=20.0, tip_diameter=1.0),
     cutter("tapered ball", angle=90.0, tip_diameter=1.4),
+    cutter("form", points=((0.0, 0.0), (0.3, 0.0), (0.7, 0.2), (1.2, 0.9), (1.5, 2.5))),
+    cutter("form", points=((0.0, 0.0), (0.5, 0.3), (1.5, 1.6))),
 ]
 GRID = Grid(40, 60, 0.25, (2.0, 12.0))
 STOCK = Stock(20.0, 15.0, 10.0)
@@ -195,3 +198,17 @@ def test_bad_use():
         simulate([program([[0, 0, 1]])], [], GRID, STOCK)
     with pytest.raises(InputError, match="coarser"):
         carve([[5, 6, -1], [8, 6, -1]], CUTTERS[0], refine=0)
+
+
+def test_a_shank_wider_than_the_flutes_rubs_where_it_goes_below_what_stands():
+    stub = cutter("flat", diameter=1.0, shank_diameter=3.0)
+    stub = replace(stub, flute_length=2.0)
+    deep = [[5, 8, 1], [5, 8, -2.5], [9, 8, -2.5], [9, 8, 1]]
+    (text,) = simulate([program(deep)], [stub], GRID, STOCK).crashes
+    assert "job.nc line 2: the shank of flat rubs through 0.500 mm" in text
+    shallow = np.array(deep) * [1, 1, 0.8]
+    assert simulate([program(shallow)], [stub], GRID, STOCK).crashes == ()
+    # A pocket as wide as the shank takes it.
+    wide = cutter("flat", diameter=5.0)
+    runs = [program([[4, 8, 1], [4, 8, -1], [10, 8, -1], [10, 8, 1]]), program(deep)]
+    assert simulate(runs, [wide, stub], GRID, STOCK).crashes == ()
