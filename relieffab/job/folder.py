@@ -24,7 +24,10 @@ SOLIDS = {
     )
     for name in ("panel", "plaque", "mould")
 }
-PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc")
+PROGRAMS = (
+    *("01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc"),
+    *("deviation.png", "look.png"),
+)
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
 ALL = (
     *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK),

@@ -17,6 +17,11 @@ th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px soli
 }
 """
 
+_ALT = {
+    "deviation": "Map of what stands above the relief, or was cut below it",
+    "look": "The relief wanted, and as the programs leave it, lit alike",
+}
+
 
 def _table(head: list[str], rows: list[list[str]]) -> str:
     top = "".join(f"<th>{escape(cell)}</th>" for cell in head)
@@ -67,11 +72,16 @@ def _verdict(part: Mapping[str, Any]) -> str:
     name, text = ("ok", "carves the relief") if part["ok"] else ("bad", "does not carve the relief")
     facts = (
         f"deepest gouge {part['gouge_mm']:.4f} mm; {part['within_tolerance']:.1%} of the figure "
-        f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm"
+        f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm; "
+        f"{part['air_cutting']:.1%} of the way at a feed is in air"
     )
     found = "".join(f"<li>{escape(finding)}</li>" for finding in part["findings"])
     listed = f"<ul>{found}</ul>" if found else ""
-    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}'
+    pictures = "".join(
+        f'<p><img src="{escape(file)}" alt="{escape(_ALT[kind])}"></p>'
+        for kind, file in part.get("pictures", {}).items()
+    )
+    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}{pictures}'
 
 
 def _solid(part: Mapping[str, Any]) -> str:
