@@ -92,6 +92,46 @@ class Machine:
 
 
 @dataclass(frozen=True)
+class Use:
+    """How one cutter is known to cut a material.
+
+    Parameters
+    ----------
+    cutter : str
+        Its key in machines/cutters.
+    feed : float
+        mm/min.
+    source : str
+        Where this is published, or who measured it.
+    machines : tuple of str
+        On which machines; any where there is none.
+    plunge, rpm, stepdown : float
+        mm/min, revolutions a minute, mm; 0 where they are as the factors say.
+    """
+
+    cutter: str
+    feed: float
+    source: str
+    machines: tuple[str, ...] = ()
+    plunge: float = 0.0
+    rpm: float = 0.0
+    stepdown: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (0 < self.feed < inf and min(self.plunge, self.rpm, self.stepdown) >= 0):
+            raise InputError(
+                f"feeds and speeds of {self.cutter} are out of range",
+                expected="a feed of more than 0, the rest 0 or more",
+                found=f"{self.feed:g}, {self.plunge:g}, {self.rpm:g}, {self.stepdown:g}",
+            )
+        if not self.source.strip():
+            raise InputError(
+                f"feeds and speeds of {self.cutter} have no source",
+                expected="where they are published, or who measured them",
+            )
+
+
+@dataclass(frozen=True)
 class Material:
     """How a stock is cut, relative to softwood.
 
@@ -103,6 +143,8 @@ class Material:
     verified : bool
         False where no measured source for the values is known.
     source, note : str
+    use : tuple of Use
+        What is known of single cutters, before the factors.
     """
 
     name: str
@@ -113,6 +155,7 @@ class Material:
     verified: bool = False
     source: str = ""
     note: str = ""
+    use: tuple[Use, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("feed", "stepdown", "rpm"):
@@ -135,26 +178,52 @@ class Cutting:
     rpm : float
     stepdown : float
         Deepest single pass, mm.
+    source : str
+    verified : bool
+        Whether that is a source for this cutter in this material, not a rule of thumb.
     """
 
     feed: float
     plunge: float
     rpm: float
     stepdown: float
+    source: str = ""
+    verified: bool = False
+
+
+def known_use(cutter: Cutter, material: Material, machine: Machine) -> Use | None:
+    """Find what is known of a cutter in a material: of this machine first, then of any."""
+    found = [
+        use
+        for use in material.use
+        if use.cutter == cutter.name and (machine.name in use.machines or not use.machines)
+    ]
+    return min(found, key=lambda use: not use.machines, default=None)
 
 
 def cutting(cutter: Cutter, material: Material, machine: Machine) -> Cutting:
-    """Scale the cutter's values to the material and cap them at the machine's.
+    """Take what is known of the cutter in the material, else scale its own values to it.
+
+    All is capped at the machine's.
 
     Returns
     -------
     Cutting
         Feeds no machine axis would have to slow down for.
     """
+    use = known_use(cutter, material, machine)
     slow, fast = machine.spindle
+    feed = use.feed if use else cutter.feed * material.feed
+    plunge = (use.plunge if use else 0.0) or min(cutter.plunge * material.feed, feed)
+    rpm = (use.rpm if use else 0.0) or cutter.rpm * material.rpm
+    turning = min(max(rpm, slow), fast)
+    # A slower spindle wants a slower feed for the same chip; a faster one gets no more.
+    feed *= min(1.0, turning / rpm) if use else 1.0
     return Cutting(
-        feed=min(cutter.feed * material.feed, *machine.max_rate[:2]),
-        plunge=min(cutter.plunge * material.feed, machine.max_rate[2]),
-        rpm=min(max(cutter.rpm * material.rpm, slow), fast),
-        stepdown=cutter.stepdown * material.stepdown,
+        feed=min(feed, *machine.max_rate[:2]),
+        plunge=min(plunge, machine.max_rate[2]),
+        rpm=turning,
+        stepdown=(use.stepdown if use else 0.0) or cutter.stepdown * material.stepdown,
+        source=use.source if use else material.source,
+        verified=use is not None or material.verified,
     )

@@ -4,6 +4,7 @@ import pytest
 
 from relieffab import profiles
 from relieffab.errors import InputError
+from relieffab.machine import cutting
 
 
 @pytest.fixture
@@ -54,6 +55,36 @@ def test_values_differ_per_axis_where_the_source_does(own):
 def test_stones_are_marked_as_unverified(own):
     for name in ("slate", "marble", "limestone", "granite"):
         assert not profiles.material(name).verified
+
+
+def test_feeds_of_materials_name_cutters_and_machines_that_there_are(own):
+    for name in profiles.names("materials"):
+        for use in profiles.material(name).use:
+            assert profiles.cutter(use.cutter).name == use.cutter
+            assert all(profiles.machine(one).name == one for one in use.machines)
+            assert len(use.source) > 20
+
+
+def test_stones_and_small_tips_have_no_source(own):
+    machine = profiles.machine("shapeoko-3")
+    for name in profiles.names("materials"):
+        material = profiles.material(name)
+        wood = name in ("softwood", "hardwood", "mdf")
+        assert cutting(profiles.cutter("flat-3.175"), material, machine).verified == wood
+        assert not cutting(profiles.cutter("tapered-ball-1"), material, machine).verified
+
+
+def test_a_users_own_feeds(own):
+    own(
+        "materials",
+        "marble",
+        'inherits = "marble"\n[[use]]\ncutter = "ball-6"\nfeed = 300\nsource = "my shop, 3 slabs"',
+    )
+    use = cutting(profiles.cutter("ball-6"), profiles.material("marble"), profiles.machine())
+    assert (use.feed, use.source, use.verified) == (300, "my shop, 3 slabs", True)
+    own("materials", "jade", 'inherits = "marble"\n[[use]]\ncutter = "ball-6"\nfeed = 300')
+    with pytest.raises(InputError, match="source"):
+        profiles.material("jade")
 
 
 def test_inherited_values_are_kept_unless_given(own):

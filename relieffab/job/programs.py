@@ -11,11 +11,12 @@ import numpy as np
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import write_program
 from relieffab.job.chain import setup_of
 from relieffab.job.settings import Job
-from relieffab.machine import Material
+from relieffab.machine import cutting, known_use
 from relieffab.relief.model import Relief
 from relieffab.toolpath.path import Toolpath
 
@@ -40,7 +41,7 @@ def write(
     fit = {path.name: paced(path, setup) for path in paths}
     paths = [one.path for one in fit.values()]
     starving = [one.warning for one in fit.values() if one.warning]
-    notes = [*material_notes(setup.material, paths), *starving]
+    notes = [*material_notes(setup, paths), *starving]
     header = {**_origin(report), **_numbered(notes)}
     parts = []
     for name, several in _files(paths, job):
@@ -52,6 +53,7 @@ def write(
                 "file": name,
                 "cutter": asdict(path.cutter),
                 "rpm": path.rpm,
+                "feeds": asdict(cutting(path.cutter, setup.material, setup.machine)),
                 "lines": text.count("\n"),
                 "seconds": round(estimate(part, setup.machine), 1),
                 "starved": round(fit[path.name].pace.starved, 4),
@@ -88,15 +90,19 @@ def _origin(report: Mapping[str, Any]) -> dict[str, str]:
     return facts | {"settings": ", ".join(f"{name}={text}" for name, text in settings.items())}
 
 
-def material_notes(material: Material, paths: Sequence[Toolpath]) -> list[str]:
+def material_notes(setup: Setup, paths: Sequence[Toolpath]) -> list[str]:
     """Say what a person has to know of the material before cutting it."""
-    notes = []
-    if not material.verified:
-        notes.append(f"feeds for {material.title.lower()} are a careful guess: start slower")
+    notes, material = [], setup.material
+    uses = {path.name: cutting(path.cutter, material, setup.machine) for path in paths}
+    guessed = [name for name, use in uses.items() if not use.verified]
+    if guessed:
+        which = "" if len(guessed) == len(paths) else f" ({', '.join(guessed)})"
+        notes.append(f"feeds for {material.title.lower()} are a careful guess{which}: start slower")
     if material.note:
         notes.append(material.note)
     for path in paths:
-        wanted = path.cutter.rpm * material.rpm
+        known = known_use(path.cutter, material, setup.machine)
+        wanted = (known.rpm if known else 0) or path.cutter.rpm * material.rpm
         if abs(path.rpm - wanted) > 1:
             notes.append(
                 f"{path.name}: the spindle turns {path.rpm:g} rpm where {wanted:g} would be right"

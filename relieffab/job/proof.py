@@ -16,7 +16,7 @@ from relieffab.grid import Grid
 from relieffab.job.folder import REPORT
 from relieffab.job.programs import file_hash
 from relieffab.job.report import read_report
-from relieffab.machine import Machine, Material
+from relieffab.machine import Machine, Material, Use
 from relieffab.picture import deviation_map, png8, predicted_look
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
@@ -69,6 +69,9 @@ def program_names(report: Mapping[str, Any]) -> list[str]:
 def _setup(report: Mapping[str, Any], depth: float) -> Setup:
     """Read back what programs were made for."""
     material = {key: value for key, value in report["material"].items() if key != "notes"}
+    material["use"] = tuple(
+        Use(**{**use, "machines": tuple(use["machines"])}) for use in material["use"]
+    )
     return Setup(
         Machine(**{**report["machine"], **_tuples(report["machine"])}),
         Material(**material),
