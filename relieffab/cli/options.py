@@ -17,7 +17,7 @@ from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
 TOOLPATH_SETTINGS = (
     *("machine", "material", "rough", "finish", "lines", "stepover"),
-    *("units", "work_zero", "work_zero_z", "cutter_change"),
+    *("units", "work_zero", "work_zero_z", "plate", "cutter_change"),
 )
 TEMPLATE_SETTINGS = ("paper",)
 # What makes no difference between methods, or is what `compare` goes through.

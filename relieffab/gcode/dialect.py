@@ -35,6 +35,9 @@ class Dialect:
         Whether G0 goes at the feed last named, so that it needs one of its own.
     dwell : float
         What P of G4 counts to a second.
+    probe : tuple of str
+        The word that moves until the probe touches, and the line that then says where that
+        is; `{z}` stands for the height.
     source : str
         Where this is from.
     """
@@ -50,6 +53,7 @@ class Dialect:
     modal: bool = True
     rapid_feed: bool = False
     dwell: float = 1.0
+    probe: tuple[str, str] = ("G38.2", "G10 L20 P1 Z{z}")
     source: str = ""
 
     @property
@@ -83,7 +87,7 @@ DIALECTS = {
         ),
         Dialect(
             "marlin", "Marlin 2", 95, (), end="M400", comments=";", modal=False, rapid_feed=True,
-            takes=frozenset({"M400"}), dwell=1000.0,
+            takes=frozenset({"M400"}), dwell=1000.0, probe=("G38.2", "G92 Z{z}"),
             refuses=frozenset({
                 *("G17", "G20", "G40", "G49", "G54", "G61", "G80", "G91.1", "G94"),
                 *("M2", "M30"),
@@ -94,6 +98,7 @@ DIALECTS = {
         ),
         Dialect(
             "mach3", "Mach3", 256, ("G17 G40 G49 G80 G91.1 G94 G54 G64",),
+            probe=("G31", "G92 Z{z}"),
             takes=frozenset({"M6", "G43", "G64"}),
             source="Mach3Mill manual, chapter 10; P of G4 counts seconds unless set otherwise",
         ),

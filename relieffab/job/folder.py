@@ -25,6 +25,7 @@ SOLIDS = {
     for name in ("panel", "plaque", "mould")
 }
 PROGRAMS = (
+    *("00-outline.nc", "00-probe.nc"),
     *("01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc"),
     *("deviation.png", "look.png"),
 )

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from relieffab.gcode.aids import outline_program, probe_program
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
@@ -33,8 +34,8 @@ def write(
     Returns
     -------
     dict
-        report.json's `programs`, `machine`, `material`, and `slab`: enough to
-        judge the programs anywhere, whatever the profiles there say.
+        report.json's `aids`, `programs`, `machine`, `material`, and `slab`: enough
+        to judge the programs anywhere, whatever the profiles there say.
     """
     setup = setup_of(job, relief.depth)
     slab = Slab.whole(relief.grid, setup.stock)
@@ -65,12 +66,23 @@ def write(
             for path, part in zip(several, program.by_tool(), strict=True)
         ]
     return {
+        "aids": _aids(setup, job, folder),
         "programs": parts,
         "units": setup.units,
         "machine": asdict(setup.machine),
         "material": {**asdict(setup.material), "notes": notes},
         "slab": asdict(setup.stock),
     }
+
+
+def _aids(setup: Setup, job: Job, folder: Path) -> list[Part]:
+    """Write what helps to set the job up."""
+    texts = {"00-outline.nc": outline_program(setup)}
+    if job.plate is not None:
+        texts["00-probe.nc"] = probe_program(setup, job.plate)
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="ascii", newline="\n")
+    return [{"file": name, "sha256": file_hash(folder / name)} for name in texts]
 
 
 def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath]]]:

@@ -103,7 +103,7 @@ class Changes:
 
 def changes(report: Mapping[str, Any], folder: Path) -> Changes:
     """Compare a folder with its report."""
-    listed = {str(part["file"]): part for part in report["programs"]}
+    listed = {str(part["file"]): part for part in [*report.get("aids", []), *report["programs"]]}
     findings = [
         f"{path.name} lies in the folder but was not made by this job, and is not judged"
         for path in sorted(folder.glob("*.nc"))
@@ -112,7 +112,7 @@ def changes(report: Mapping[str, Any], folder: Path) -> Changes:
     notes = [
         f"{name} was changed after it was written"
         for name, part in listed.items()
-        if file_hash(folder / name) != part.get("sha256")
+        if (folder / name).is_file() and file_hash(folder / name) != part.get("sha256")
     ]
     if file_hash(folder / RELIEF) != report.get("relief", {}).get("sha256"):
         notes.append(f"{RELIEF} was changed after it was written")
@@ -205,6 +205,8 @@ def check_certificate(program: Path) -> list[str]:
     report = read_report(folder)
     proof = report.get("verification") or {}
     held = proof.get("certificate") or {}
+    if program.name in (aids := {part["file"]: part["sha256"] for part in report.get("aids", [])}):
+        return _check_aid(program, aids[program.name])
     if program.name not in program_names(report):
         return [f"{program.name} is none of this job's programs: nobody proved it"]
     same = held.get("programs", {}).get(program.name) == file_hash(program)
@@ -219,3 +221,14 @@ def check_certificate(program: Path) -> list[str]:
             hint="relieffab toolpath writes the programs again",
         )
     return [f"{program.name} is not as it was proved; judged again, it carves the relief"]
+
+
+def _check_aid(program: Path, known: str) -> list[str]:
+    """Refuse a probe or an outline that is not as the job wrote it: neither can be judged."""
+    if file_hash(program) != known:
+        raise FindingsError(
+            f"{program.name} is not as the job wrote it; nothing sent",
+            where=str(program),
+            hint="relieffab toolpath writes it again",
+        )
+    return []

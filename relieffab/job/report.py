@@ -28,6 +28,7 @@ KEYS = (
     "material",
     "slab",
     "units",
+    "aids",
     "programs",
     "verification",
     "picture",

@@ -202,6 +202,7 @@ SETTINGS = (
     Setting(
         "work_zero_z", _one_of(*LEVELS), "top", "work zero's height: top or bottom of the stock"
     ),
+    Setting("plate", _not_negative, "", "thickness of a touch plate: also writes a probe of Z"),
     Setting(
         "cutter_change",
         _one_of("files", "pause"),
@@ -269,6 +270,7 @@ class Job:
     units: Literal["mm", "in"]
     work_zero: str
     work_zero_z: str
+    plate: float | None
     cutter_change: str
     mesh_tolerance: float
     solid: str

@@ -38,6 +38,7 @@ def made(model, tmp_path_factory):
 def test_make_leaves_exactly_the_files_of_a_job(made):
     found = sorted(str(p.relative_to(made)) for p in made.rglob("*") if p.is_file())
     assert found == [
+        "00-outline.nc",
         "01-rough.nc",
         "02-finish.nc",
         "03-lines.nc",
@@ -306,6 +307,12 @@ def test_send_asks_for_the_certificate(made, tmp_path, capsys):
     assert "does not carve the relief; nothing sent" in told.err and "gouges" in told.err
     assert "carved" not in told.out
 
+    outline = folder / "00-outline.nc"
+    assert run(["send", str(outline), *port]) == 0
+    outline.write_text(outline.read_text().replace("Z5", "Z-5"))
+    assert run(["send", str(outline), *port]) == 1
+    assert "not as the job wrote it" in capsys.readouterr().err
+
     finish.write_text(sound[: len(sound) // 2])
     assert run(["send", str(finish), *port]) == 2
     assert run(["send", str(folder / "01-rough.nc"), *port]) == 0
@@ -340,7 +347,7 @@ def test_one_program_in_inches_from_under_the_middle(made, tmp_path):
     place = ["--work-zero", "centre", "--work-zero-z", "bottom"]
     assert run(["toolpath", str(folder), *flags, *place]) == 0
     report = json.loads((folder / "report.json").read_text())
-    assert sorted(p.name for p in folder.glob("*.nc")) == ["programs.nc"]
+    assert sorted(p.name for p in folder.glob("*.nc")) == ["00-outline.nc", "programs.nc"]
     assert [part["file"] for part in report["programs"]] == ["programs.nc"] * 3
     (x0, y0, z0), (x1, y1, z1) = report["programs"][1]["bounds_mm"]
     assert x0 < 0 < x1 and y0 < 0 < y1 and 10 < z0 < 12 < z1

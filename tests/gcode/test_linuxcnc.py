@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from relieffab.cutter import Cutter
+from relieffab.gcode.aids import outline_program, probe_program
 from relieffab.gcode.dialect import DIALECTS, GRBL
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
@@ -162,10 +163,8 @@ def rings():
 
 
 @pytest.mark.parametrize("units", ["mm", "in"])
-@pytest.mark.parametrize("dialect", sorted(DIALECTS))
+@pytest.mark.parametrize("dialect", sorted(DIALECTS.keys() - {"marlin"}))  # which it cannot read
 def test_written_programs(dialect, units, tmp_path):
-    if dialect == "marlin":
-        pytest.skip("LinuxCNC does not read Marlin's dialect")
     setup = setup_of(dialect, units, ("centre", "bottom"))
     many = [scattered(5), rings()] if "M6" in DIALECTS[dialect].codes else [rings()]
     slab = Slab.whole(Grid(90, 120, 1.0, (0.0, 90.0)), setup.stock)
@@ -177,3 +176,11 @@ def test_written_programs(dialect, units, tmp_path):
     low = points[points[:, 2] < 0]
     radius = np.hypot(low[:, 0] - 30, low[:, 1] - 40)
     assert np.abs(radius[:, None] - [2.0, 7.3, 19.0]).min(axis=1).max() < 0.002
+
+
+@pytest.mark.parametrize("units", ["mm", "in"])
+def test_outlines_and_probes(units, tmp_path):
+    setup = setup_of("linuxcnc", units, ("far-right", "bottom"))
+    same_path(outline_program(setup), tmp_path, DIALECTS["linuxcnc"])
+    moves, fault = interpreted(probe_program(setup, 19.0), tmp_path)
+    assert fault == "" and len(moves) == 2
