@@ -24,8 +24,8 @@ from relieffab.relief.model import Relief
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-REFINE = 4
-"""Lattice nodes a pixel of the relief."""
+REFINE, LARGE = 4, 4_000_000
+"""Lattice nodes a pixel, half of that for reliefs of more pixels than `LARGE`."""
 
 AIR = 1e-3  # mm of material, below which a move cuts nothing
 LEAST_WITHIN = 0.9  # share of the figure that has to be within the tolerance
@@ -86,7 +86,7 @@ def verify(
     *,
     tolerance: float = 0.1,
     gouge_limit: float = 0.01,
-    refine: int = REFINE,
+    refine: int | None = None,
     progress: Progress = silent,
 ) -> Verification:
     """Run programs on a virtual stock and compare what is left with the relief.
@@ -110,8 +110,8 @@ def verify(
         Accepted difference, mm.
     gouge_limit : float
         Accepted gouge, mm.
-    refine : int
-        Lattice nodes a pixel.
+    refine : int, optional
+        Lattice nodes a pixel; four, or two for a relief of more than 4 million pixels.
     progress : Progress
         Told of mm run.
 
@@ -124,6 +124,8 @@ def verify(
         raise InputError("there is no program to verify")
     if not relief.mask.any():
         raise InputError("the relief has no figure to judge by")
+    if refine is None:
+        refine = REFINE if relief.mask.size <= LARGE else REFINE // 2
     read = [part for program in _read(programs, setup) for part in program.by_tool()]
     carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
     coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)

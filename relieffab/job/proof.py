@@ -11,7 +11,7 @@ from relieffab.cutter import Cutter
 from relieffab.errors import FindingsError, InputError
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
-from relieffab.gcode.verify import REFINE, Verification, verify
+from relieffab.gcode.verify import Verification, verify
 from relieffab.grid import Grid
 from relieffab.job.folder import REPORT
 from relieffab.job.programs import file_hash
@@ -119,7 +119,7 @@ def changes(report: Mapping[str, Any], folder: Path) -> Changes:
     return Changes(findings, notes)
 
 
-def verification_part(verdict: Verification, more: Sequence[str] = ()) -> Part:
+def verification_part(verdict: Verification, relief: Relief, more: Sequence[str] = ()) -> Part:
     """Describe a verdict as report.json does."""
     findings = [*verdict.findings, *more]
     inside = verdict.deviation[verdict.figure]
@@ -136,7 +136,7 @@ def verification_part(verdict: Verification, more: Sequence[str] = ()) -> Part:
             "p99": round(float(high), 5),
             "most": round(float(inside.max()), 5),
         },
-        "nodes_per_pixel": REFINE,
+        "nodes_per_pixel": round(relief.grid.pitch / verdict.grid.pitch),
         "air_cutting": round(verdict.air_cutting, 4),
         "ok": not findings,
         "findings": findings,

@@ -114,7 +114,7 @@ def _prove(
     with _timed(report, "verify", progress):
         verdict = proof.judge(relief, report, folder, progress)
         report["verification"] = {
-            **proof.verification_part(verdict),
+            **proof.verification_part(verdict, relief),
             "certificate": proof.certificate(report, folder),
             "pictures": proof.write_pictures(verdict, relief, folder),
         }
@@ -258,4 +258,4 @@ def verify_again(folder: Path) -> dict[str, Any]:
     relief = read_relief(folder / "relief.tiff")
     verdict = proof.judge(relief, report, folder)
     changed = proof.changes(report, folder)
-    return {**proof.verification_part(verdict, changed.findings), "notes": changed.notes}
+    return {**proof.verification_part(verdict, relief, changed.findings), "notes": changed.notes}

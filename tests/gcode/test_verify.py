@@ -189,6 +189,13 @@ def test_what_the_cutter_cannot_reach_is_not_missed():
     assert missed_patch(relief, -heights, fine, 0.1) > 0.1 * 3 * 3.5
 
 
+def test_large_reliefs_are_judged_on_half_as_fine_a_lattice(monkeypatch):
+    assert judge(TEXT).grid.pitch == pytest.approx(RELIEF.grid.pitch / 4)
+    assert judge(TEXT, refine=1).grid.pitch == pytest.approx(RELIEF.grid.pitch)
+    monkeypatch.setattr("relieffab.gcode.verify.LARGE", RELIEF.mask.size - 1)
+    assert judge(TEXT).grid.pitch == pytest.approx(RELIEF.grid.pitch / 2)
+
+
 def test_bad_use():
     blank = Relief(RELIEF.grid, RELIEF.heights * 0, RELIEF.mask & False, 2.0)
     with pytest.raises(InputError, match="no figure"):

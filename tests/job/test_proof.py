@@ -31,7 +31,8 @@ def judged(rows=30, cols=40, grown=2):
 
 
 def test_numbers():
-    part = verification_part(judged()[1], ["one thing more"])
+    relief, verdict = judged()
+    part = verification_part(verdict, relief, ["one thing more"])
     assert part["deviation_mm"] == {
         "least": -0.03, "p01": 0.02, "median": 0.02, "p99": 0.02, "most": 0.02,
     }  # fmt: skip
