@@ -17,9 +17,11 @@ def run(folder: Path, width: int = 512) -> Path:
     layers = rf.make_layers(mesh, rf.View(up="y"), resolution=(width, 3 * width // 4))
     relief, _ = rf.make_relief(layers, rf.Carving(depth=2.0))
     machine, stock = rf.profiles.machine("3018-prover"), rf.Stock(120, 90, 10)
-    paths = rf.plan(relief, layers.strokes, machine, rf.profiles.material("softwood"), stock=stock)
-    programs = [rf.write_program(path, machine, stock, depth=relief.depth) for path in paths]
-    verdict = rf.verify(programs, [path.cutter for path in paths], relief, stock, machine)
+    wood = rf.profiles.material("softwood")
+    paths = rf.plan(relief, layers.strokes, machine, wood, stock=stock)
+    setup, slab = rf.Setup(machine, wood, stock, relief.depth), rf.Slab.whole(relief.grid, stock)
+    programs = [rf.write_program(path, setup, slab) for path in paths]
+    verdict = rf.verify(programs, [path.cutter for path in paths], relief, setup)
     if not verdict.ok:
         raise SystemExit("\n".join(verdict.findings))
 

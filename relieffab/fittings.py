@@ -1,12 +1,22 @@
 """What a slab may have beside its face: a frame, holes for screws, keyholes to hang it by."""
 
 from dataclasses import dataclass
+from itertools import product
 from typing import Literal
 
 from relieffab.errors import InputError
 
 Kind = Literal["rectangle", "round", "arched"]  # of outline
 Place = tuple[float, float]
+
+_ALONG = {"left": 0.0, "": 0.5, "right": 1.0}
+_ACROSS = {"near": 0.0, "": 0.5, "far": 1.0}
+PLACES = {
+    "-".join(filter(None, (y, x))) or "centre": (_ALONG[x], _ACROSS[y])
+    for y, x in product(_ACROSS, _ALONG)
+}
+"""Nine points of a slab by name, as shares of its width and height."""
+LEVELS = ("top", "bottom")
 
 
 @dataclass(frozen=True)

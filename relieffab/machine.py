@@ -1,6 +1,7 @@
 """Machine and Material: what can move, how fast, and how willingly the stock is cut."""
 
 from dataclasses import dataclass
+from math import inf
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
@@ -34,6 +35,8 @@ class Machine:
         Moves the controller looks ahead.
     line_rate : float
         Lines of G-code it parses a second.
+    baud : float
+        Bits a second of its serial line, ten to a character.
     dialect : str
     source : str
         Where these values come from.
@@ -51,6 +54,7 @@ class Machine:
     rx_buffer: int = 128
     planner_blocks: int = 15
     line_rate: float = 400.0
+    baud: float = 115200.0
     dialect: str = "grbl"
     source: str = ""
 
@@ -71,12 +75,59 @@ class Machine:
                 found=f"{slow:g} to {fast:g} rpm",
                 where=f"machine {self.name}",
             )
+        for name in ("planner_blocks", "line_rate", "baud", "junction_deviation"):
+            if not 0 < getattr(self, name) < inf:
+                raise InputError(
+                    f"{name} must be more than 0",
+                    found=f"{getattr(self, name)}",
+                    where=f"machine {self.name}",
+                )
         if self.safe_height <= 0:
             raise InputError(
                 "the safe height must lie above the panel's face",
                 expected="more than 0 mm",
                 found=f"{self.safe_height} mm",
                 where=f"machine {self.name}",
+            )
+
+
+@dataclass(frozen=True)
+class Use:
+    """How one cutter is known to cut a material.
+
+    Parameters
+    ----------
+    cutter : str
+        Its key in machines/cutters.
+    feed : float
+        mm/min.
+    source : str
+        Where this is published, or who measured it.
+    machines : tuple of str
+        On which machines; any where there is none.
+    plunge, rpm, stepdown : float
+        mm/min, revolutions a minute, mm; 0 where they are as the factors say.
+    """
+
+    cutter: str
+    feed: float
+    source: str
+    machines: tuple[str, ...] = ()
+    plunge: float = 0.0
+    rpm: float = 0.0
+    stepdown: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (0 < self.feed < inf and min(self.plunge, self.rpm, self.stepdown) >= 0):
+            raise InputError(
+                f"feeds and speeds of {self.cutter} are out of range",
+                expected="a feed of more than 0, the rest 0 or more",
+                found=f"{self.feed:g}, {self.plunge:g}, {self.rpm:g}, {self.stepdown:g}",
+            )
+        if not self.source.strip():
+            raise InputError(
+                f"feeds and speeds of {self.cutter} have no source",
+                expected="where they are published, or who measured them",
             )
 
 
@@ -92,6 +143,8 @@ class Material:
     verified : bool
         False where no measured source for the values is known.
     source, note : str
+    use : tuple of Use
+        What is known of single cutters, before the factors.
     """
 
     name: str
@@ -102,6 +155,7 @@ class Material:
     verified: bool = False
     source: str = ""
     note: str = ""
+    use: tuple[Use, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("feed", "stepdown", "rpm"):
@@ -124,26 +178,52 @@ class Cutting:
     rpm : float
     stepdown : float
         Deepest single pass, mm.
+    source : str
+    verified : bool
+        Whether that is a source for this cutter in this material, not a rule of thumb.
     """
 
     feed: float
     plunge: float
     rpm: float
     stepdown: float
+    source: str = ""
+    verified: bool = False
+
+
+def known_use(cutter: Cutter, material: Material, machine: Machine) -> Use | None:
+    """Find what is known of a cutter in a material: of this machine first, then of any."""
+    found = [
+        use
+        for use in material.use
+        if use.cutter == cutter.name and (machine.name in use.machines or not use.machines)
+    ]
+    return min(found, key=lambda use: not use.machines, default=None)
 
 
 def cutting(cutter: Cutter, material: Material, machine: Machine) -> Cutting:
-    """Scale the cutter's values to the material and cap them at the machine's.
+    """Take what is known of the cutter in the material, else scale its own values to it.
+
+    All is capped at the machine's.
 
     Returns
     -------
     Cutting
         Feeds no machine axis would have to slow down for.
     """
+    use = known_use(cutter, material, machine)
     slow, fast = machine.spindle
+    feed = use.feed if use else cutter.feed * material.feed
+    plunge = (use.plunge if use else 0.0) or min(cutter.plunge * material.feed, feed)
+    rpm = (use.rpm if use else 0.0) or cutter.rpm * material.rpm
+    turning = min(max(rpm, slow), fast)
+    # A slower spindle wants a slower feed for the same chip; a faster one gets no more.
+    feed *= min(1.0, turning / rpm) if use else 1.0
     return Cutting(
-        feed=min(cutter.feed * material.feed, *machine.max_rate[:2]),
-        plunge=min(cutter.plunge * material.feed, machine.max_rate[2]),
-        rpm=min(max(cutter.rpm * material.rpm, slow), fast),
-        stepdown=cutter.stepdown * material.stepdown,
+        feed=min(feed, *machine.max_rate[:2]),
+        plunge=min(plunge, machine.max_rate[2]),
+        rpm=turning,
+        stepdown=(use.stepdown if use else 0.0) or cutter.stepdown * material.stepdown,
+        source=use.source if use else material.source,
+        verified=use is not None or material.verified,
     )

@@ -23,6 +23,7 @@ DEFAULT_MATERIAL = "softwood"
 _QUANTITIES: dict[str, Callable[[Any], float]] = {
     **dict.fromkeys(("diameter", "flute_length", "stepdown", "tip_diameter"), units.length),
     **dict.fromkeys(("corner_radius", "travel", "safe_height", "junction_deviation"), units.length),
+    **dict.fromkeys(("shank_diameter", "stickout", "points"), units.length),
     **dict.fromkeys(("feed", "plunge", "max_rate"), units.feed),
     "angle": units.angle,
 }

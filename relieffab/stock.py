@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from relieffab.errors import InputError
-from relieffab.fittings import Edge, Frame, Hole, Keyhole, Kind, Place
+from relieffab.errors import InputError, suggest
+from relieffab.fittings import LEVELS, PLACES, Edge, Frame, Hole, Keyhole, Kind, Place
 from relieffab.outline import Outline
 
 WALL = 1.0  # mm of material that must stay beside holes, and over keyholes
@@ -33,6 +33,11 @@ class Stock:
     frame : Frame or None
     holes : tuple of Hole
     keyholes : tuple of Keyhole
+
+    Raises
+    ------
+    InputError
+        If a measure cannot be, or work zero is not on the stock.
     """
 
     width: float
@@ -53,6 +58,14 @@ class Stock:
                     f"the stock's {name} cannot be {value:g} mm",
                     expected="more than 0, less than 100 m",
                 )
+        x, y, z = self.work_zero
+        if not (0 <= x <= self.width and 0 <= y <= self.height and -self.thickness <= z <= 0):
+            raise InputError(
+                "work zero lies off the stock",
+                expected=f"X 0 to {self.width:g}, Y 0 to {self.height:g}, "
+                f"Z {-self.thickness:g} to 0 mm on the panel",
+                found=f"X {x:g}, Y {y:g}, Z {z:g} mm",
+            )
         outline = self.outline
         if self.frame:
             _check_frame(self.frame, outline, self.thickness)
@@ -112,6 +125,37 @@ class Stock:
             given[name] = tuple(kind(**{**item, "at": tuple(item["at"])}) for item in listed)
         given["work_zero"] = tuple(given.get("work_zero", (0.0, 0.0, 0.0)))
         return cls(**given)
+
+    @classmethod
+    def zeroed(
+        cls, size: tuple[float, float, float], place: str, level: str = "top", **form: Any
+    ) -> "Stock":
+        """Set work zero at one of nine points, on the face or under the slab.
+
+        Parameters
+        ----------
+        size : tuple of float
+            Width, height and thickness, mm.
+        place : str
+            One of `PLACES`: 'near-left', 'centre', 'far' ...
+        level : {'top', 'bottom'}
+        **form
+            The stock's other parameters.
+
+        Examples
+        --------
+        >>> Stock.zeroed((120, 90, 12), "near-right", "bottom").work_zero
+        (120.0, 0.0, -12)
+        """
+        if place not in PLACES:
+            raise InputError(
+                "work zero has no such place", found=place, hint=suggest(place, PLACES)
+            )
+        if level not in LEVELS:
+            raise InputError("work zero is at top or bottom", found=level)
+        x, y = PLACES[place]
+        z = 0.0 if level == "top" else -size[2]
+        return cls(*size, work_zero=(x * size[0], y * size[1], z), **form)
 
     def _openings(self) -> list[tuple[Place, Place, float]]:
         """Each hole and keyhole as a line with a radius: its two ends, and mm."""

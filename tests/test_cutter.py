@@ -46,6 +46,27 @@ def test_tapered_ball_meets_its_cone_without_a_step_or_a_bend():
     assert (at - below) / tiny == pytest.approx(cutter.flank, rel=1e-4)
 
 
+LEAF = ((0, 0), (0.2, 0), (0.6, 0.3), (1.0, 1.5))
+
+
+def test_a_form_follows_its_points():
+    form = make("form", points=LEAF)
+    assert np.allclose(form.profile([0.1, 0.4, -0.8, 1.0]), [0, 0.15, 0.9, 1.5])
+    assert form.profile(1.01) == math.inf
+    assert form.flat_radius == 0.2
+    with pytest.raises(InputError, match="no one flank"):
+        _ = form.flank
+
+
+def test_points_may_be_lists_as_a_report_holds_them():
+    assert make("form", points=[list(p) for p in LEAF]) == make("form", points=LEAF)
+
+
+def test_the_shank_is_as_wide_as_the_cutter_unless_told():
+    assert make("ball").shank_radius == 1.0
+    assert make("ball", shank_diameter=3.0).shank_radius == 1.5
+
+
 @pytest.mark.parametrize(
     ("values", "word"),
     [
@@ -58,6 +79,14 @@ def test_tapered_ball_meets_its_cone_without_a_step_or_a_bend():
         ({"shape": "bull", "corner_radius": 1.0}, "corner radius"),
         ({"shape": "ball", "angle": 30}, "a ball cutter has no angle"),
         ({"shape": "flat", "corner_radius": 0.2}, "a flat cutter has no corner_radius"),
+        ({"shape": "flat", "points": LEAF}, "a flat cutter has no points"),
+        ({"shape": "form"}, "convex profile"),
+        ({"shape": "form", "points": LEAF[1:]}, "convex profile"),
+        ({"shape": "form", "points": LEAF[:-1]}, "convex profile"),
+        ({"shape": "form", "points": (*LEAF[:-1], (1.0, 0.4))}, "convex profile"),
+        ({"shape": "form", "points": ((0, 0), (1.0, math.nan))}, "convex profile"),
+        ({"shape": "flat", "shank_diameter": -1.0}, "shank has no such diameter"),
+        ({"shape": "flat", "stickout": 8.0}, "into the collet"),
     ],
 )
 def test_what_is_no_cutter_is_refused(values, word):

@@ -6,7 +6,7 @@ import pytest
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
-from relieffab.machine import Machine, Material, cutting
+from relieffab.machine import Machine, Material, Use, cutting
 
 CUTTER = Cutter("f", "flat", 3.0, 9.0, 1.0, 1000.0, 300.0, 12000.0)
 MACHINE = Machine(
@@ -52,3 +52,44 @@ def test_impossible_machines_are_refused(values, word):
 def test_impossible_materials_are_refused(values):
     with pytest.raises(InputError, match=f"factor {next(iter(values))}"):
         replace(STONE, **values)
+
+
+def known(**values):
+    use = {"cutter": "f", "feed": 700.0, "source": "a chart", "rpm": 9000.0} | values
+    return Material("w", "W", feed=0.5, stepdown=0.5, source="a rule", use=(Use(**use),))
+
+
+def test_what_is_known_of_a_cutter_comes_before_the_factors():
+    use = cutting(CUTTER, known(stepdown=2.0, plunge=150.0), MACHINE)
+    assert (use.feed, use.plunge, use.rpm, use.stepdown) == (700, 150, 9000, 2)
+    assert use.source == "a chart" and use.verified
+    use = cutting(CUTTER, known(), MACHINE)
+    assert (use.plunge, use.stepdown) == (150, 0.5)
+    other = cutting(replace(CUTTER, name="g"), known(), MACHINE)
+    assert (other.feed, other.source, other.verified) == (500, "a rule", False)
+
+
+def test_what_is_known_of_one_machine_comes_first():
+    assert cutting(CUTTER, known(machines=("else",)), MACHINE).feed == 500
+    any_one, here = known().use[0], known(machines=("m",), feed=600.0).use[0]
+    both = replace(known(), use=(any_one, here))
+    assert cutting(CUTTER, both, MACHINE).feed == 600
+    assert cutting(CUTTER, both, replace(MACHINE, name="n")).feed == 700
+
+
+def test_a_slower_spindle_keeps_the_chip():
+    assert cutting(CUTTER, known(rpm=20000.0), MACHINE).feed == 350
+    assert cutting(CUTTER, known(feed=2000.0), MACHINE).feed == 800
+
+
+@pytest.mark.parametrize(
+    ("values", "word"),
+    [
+        ({"feed": 0.0}, "out of range"),
+        ({"rpm": -1.0}, "out of range"),
+        ({"source": " "}, "no source"),
+    ],
+)
+def test_impossible_uses(values, word):
+    with pytest.raises(InputError, match=word):
+        known(**values)

@@ -4,6 +4,7 @@ import pytest
 
 from relieffab import profiles
 from relieffab.errors import InputError
+from relieffab.machine import cutting
 
 
 @pytest.fixture
@@ -24,7 +25,7 @@ def own(tmp_path, monkeypatch):
     ("kind", "read", "count"),
     [
         ("machines", profiles.machine, 11),
-        ("cutters", profiles.cutter, 8),
+        ("cutters", profiles.cutter, 16),
         ("materials", profiles.material, 8),
     ],
 )
@@ -56,6 +57,36 @@ def test_stones_are_marked_as_unverified(own):
         assert not profiles.material(name).verified
 
 
+def test_feeds_of_materials_name_cutters_and_machines_that_there_are(own):
+    for name in profiles.names("materials"):
+        for use in profiles.material(name).use:
+            assert profiles.cutter(use.cutter).name == use.cutter
+            assert all(profiles.machine(one).name == one for one in use.machines)
+            assert len(use.source) > 20
+
+
+def test_stones_and_small_tips_have_no_source(own):
+    machine = profiles.machine("shapeoko-3")
+    for name in profiles.names("materials"):
+        material = profiles.material(name)
+        wood = name in ("softwood", "hardwood", "mdf")
+        assert cutting(profiles.cutter("flat-3.175"), material, machine).verified == wood
+        assert not cutting(profiles.cutter("tapered-ball-1"), material, machine).verified
+
+
+def test_a_users_own_feeds(own):
+    own(
+        "materials",
+        "marble",
+        'inherits = "marble"\n[[use]]\ncutter = "ball-6"\nfeed = 300\nsource = "my shop, 3 slabs"',
+    )
+    use = cutting(profiles.cutter("ball-6"), profiles.material("marble"), profiles.machine())
+    assert (use.feed, use.source, use.verified) == (300, "my shop, 3 slabs", True)
+    own("materials", "jade", 'inherits = "marble"\n[[use]]\ncutter = "ball-6"\nfeed = 300')
+    with pytest.raises(InputError, match="source"):
+        profiles.material("jade")
+
+
 def test_inherited_values_are_kept_unless_given(own):
     base, heir = profiles.machine("lead-1010"), profiles.machine("lead-1515")
     assert heir.spindle == base.spindle
@@ -68,6 +99,19 @@ def test_units_are_read(own):
     assert (cutter.diameter, cutter.feed, cutter.flute_length) == (6.35, 600, 22)
     own("machines", "mine", 'inherits = "minimill"\ntravel = ["12cm", 120, "60mm"]')
     assert profiles.machine("mine").travel == (120, 120, 60)
+
+
+def test_a_form_cutter_is_read_with_its_points(own):
+    own(
+        "cutters",
+        "leaf",
+        'title = "Leaf"\nshape = "form"\ndiameter = 3\n'
+        'points = [[0, 0], ["0.5mm", 0.1], [1.5, 2]]\n'
+        'flute_length = 4\nstickout = "1in"\nstepdown = 1\nfeed = 800\nplunge = 200\nrpm = 9000',
+    )
+    leaf = profiles.cutter("leaf")
+    assert leaf.points == ((0, 0), (0.5, 0.1), (1.5, 2))
+    assert leaf.stickout == 25.4
 
 
 def test_a_users_profile_overrides_and_may_inherit_its_own_name(own):

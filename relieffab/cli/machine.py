@@ -27,6 +27,10 @@ def send(
     """Stream a program to a Grbl machine and see it through."""
     if not program.is_file():
         raise InputError("there is no such program", where=str(program))
+    from relieffab.job.proof import check_certificate
+
+    for note in check_certificate(program):
+        console.message(f"note: {note}")
     report = stream(program.read_text(encoding="latin-1"), port, baud)
     if as_json:
         print(json.dumps(asdict(report), indent=2))

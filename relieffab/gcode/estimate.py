@@ -1,5 +1,7 @@
 """How long a program takes on a machine that accelerates, looks ahead and reads slowly."""
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,10 +20,50 @@ def estimate(program: Program, machine: Machine) -> float:
     float
         Seconds.  Pauses for the operator (M0) take no time here.
     """
-    new_line = np.diff(program.line, prepend=-1) != 0
     return motion_seconds(
-        program.points, program.feed, machine, new_line=new_line, dwell=program.dwell
+        program.points,
+        program.feed,
+        machine,
+        reading=reading_seconds(program, machine),
+        dwell=program.dwell,
     )
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How a program runs on a machine.
+
+    Parameters
+    ----------
+    seconds : float
+        It takes, dwells included.
+    unhindered : float
+        It would take if lines came at once and the controller saw all moves ahead.
+    """
+
+    seconds: float
+    unhindered: float
+
+    @property
+    def starved(self) -> float:
+        """Share of the time lost to waiting for lines, and to braking for want of them."""
+        return 1 - self.unhindered / self.seconds if self.seconds else 0.0
+
+
+def pace(program: Program, machine: Machine) -> Pace:
+    """Foretell a program's time, and how much of it the short look-ahead and slow lines cost."""
+    free = replace(machine, planner_blocks=len(program.points) + 2, line_rate=1e9, baud=1e12)
+    return Pace(estimate(program, machine), estimate(program, free))
+
+
+def reading_seconds(program: Program, machine: Machine) -> Floats:
+    """Give the time that each move's line takes to come and be read.
+
+    Both go on at once, so that the slower counts; chords of one arc share a line.
+    """
+    new_line = np.diff(program.line, prepend=-1) != 0
+    slower: Floats = np.maximum(1 / machine.line_rate, program.sent * (10 / machine.baud))
+    return np.where(new_line, slower, 0.0)
 
 
 def motion_seconds(
@@ -29,7 +71,7 @@ def motion_seconds(
     feed: Floats,
     machine: Machine,
     *,
-    new_line: NDArray[np.bool_] | None = None,
+    reading: Floats | None = None,
     dwell: Floats | None = None,
 ) -> float:
     """Foretell how long a motion takes, planned as Grbl 1.1 plans it.
@@ -46,8 +88,8 @@ def motion_seconds(
     feed : (n,) ndarray
         Of the move to each point, mm/min; infinite for a rapid.
     machine : Machine
-    new_line : (n,) ndarray of bool, optional
-        False where a move comes from the same line as the one before it.
+    reading : (n,) ndarray, optional
+        Seconds it takes until each move has been read; else as the line rate has it.
     dwell : (n + 1,) ndarray, optional
         Seconds waited before each move and after the last; the machine stands
         still meanwhile.
@@ -70,8 +112,7 @@ def motion_seconds(
     entry2[np.diff(np.cumsum(wait)[moves], prepend=0.0) > 0] = 0.0
     blocks = machine.planner_blocks
     entry2 = np.minimum(entry2, _stopping(2 * acceleration * length, blocks))
-    read = np.ones(len(points), bool) if new_line is None else new_line
-    parse = np.where(read[moves], 1 / machine.line_rate, 0.0)
+    parse = np.full(len(moves), 1 / machine.line_rate) if reading is None else reading[moves]
     return float(wait.sum()) + run_seconds(length, speed, acceleration, entry2, parse, blocks)
 
 

@@ -1,7 +1,8 @@
 """Limits: how far a program may go; the one place that says so.
 
 The writer refuses to write what breaks them, and the verifier reports it of a
-text that somebody else wrote.
+text that somebody else wrote.  Both ask of the text as it is read back, and of a
+stock cut by it: no option of planning or writing comes between.
 """
 
 from collections.abc import Iterator
@@ -17,6 +18,8 @@ from relieffab.stock import Stock
 Floats = NDArray[np.float64]
 
 SLACK = 1e-6  # mm, for the arithmetic of offsets and units
+OVER = 1.1
+"""Of the stepdown a pass may take: the pass before was simplified upwards, by more where steep."""
 
 
 @dataclass(frozen=True)
@@ -27,18 +30,21 @@ class Limits:
     ----------
     depth : float
         Of the relief, positive, mm.
+    stepdown : float
+        Deepest single pass in this material, mm.
     cutter : Cutter
     stock : Stock
     machine : Machine
     """
 
     depth: float
+    stepdown: float
     cutter: Cutter
     stock: Stock
     machine: Machine
 
     def findings(
-        self, points: Floats, feed: Floats, line: NDArray[np.int64] | None = None
+        self, points: Floats, feed: Floats, bites: Floats, line: NDArray[np.int64] | None = None
     ) -> tuple[str, ...]:
         """List every limit the motion breaks, one sentence each.
 
@@ -48,12 +54,14 @@ class Limits:
             Positions of the tip, panel mm.
         feed : (n,) ndarray
             Of the move to each point, mm/min; infinite for a rapid.
+        bites : (n,) ndarray
+            Deepest bite of the move to each point into what stands by then, mm.
         line : (n,) ndarray of int, optional
             Lines of the text, to say where.
         """
         point = "move" if line is None else "line"
         number = np.arange(len(points)) if line is None else line
-        found = [*self._depths(points), *self._places(points, feed)]
+        found = [*self._depths(points), *self._passes(bites), *self._places(points, feed)]
         found += self._feeds(points, feed)
         return tuple(
             f"{text} ({np.count_nonzero(bad)} moves, first at {point} {number[bad.argmax()]})"
@@ -73,6 +81,14 @@ class Limits:
         }
         for words, bound in bounds.items():
             yield z < -bound - SLACK, f"cuts {words}: {lowest}"
+
+    def _passes(self, bites: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
+        allowed = self.stepdown * OVER + 0.01
+        yield (
+            bites > allowed,
+            f"takes {bites.max():.3f} mm at once, where {self.cutter.name} may take "
+            f"{self.stepdown:.3g} mm",
+        )
 
     def _places(self, points: Floats, feed: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
         x, y, z = points.T

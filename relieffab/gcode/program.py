@@ -1,6 +1,7 @@
 """Program: what a text of G-code makes the machine do."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,10 @@ class Program:
         Seconds waited before each move, and after the last.
     line_count : int
         Lines of the text.
+    sent : (n,) ndarray of int
+        Characters of that line as they are sent, its end included.
+    tool : (n,) ndarray of int
+        Number of the cutter that makes each move; 0 before any was called for.
     blind_line : int
         Line of the first move sideways at a height not known yet; 0 if none.
     """
@@ -45,12 +50,14 @@ class Program:
     spindle: Floats
     dwell: Floats
     line_count: int
+    sent: NDArray[np.int64]
+    tool: NDArray[np.int64]
     blind_line: int = 0
 
     def __post_init__(self) -> None:
         count = len(self.points)
         shapes = {"points": (count, 3), "feed": (count,), "line": (count,)}
-        shapes |= {"spindle": (count,), "dwell": (count + 1,)}
+        shapes |= {"spindle": (count,), "dwell": (count + 1,), "sent": (count,), "tool": (count,)}
         for name, want in shapes.items():
             array = getattr(self, name)
             if array.shape != want:
@@ -86,6 +93,28 @@ class Program:
     def bounds(self) -> Floats:
         """Least and greatest X, Y, Z as a (2, 3) array, work coordinates, mm."""
         return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    def by_tool(self) -> tuple["Program", ...]:
+        """Part it where the cutter is changed; each part has the whole's name and lines."""
+        breaks = 1 + np.flatnonzero(np.diff(self.tool))
+        ends = [0, *breaks.tolist(), len(self.points)]
+        return tuple(self._part(a, b) for a, b in pairwise(ends))
+
+    def _part(self, start: int, stop: int) -> "Program":
+        last = stop == len(self.points)
+        dwell = np.append(self.dwell[start:stop], self.dwell[-1] if last else 0.0)
+        return Program(
+            self.name,
+            self.points[start:stop],
+            self.feed[start:stop],
+            self.line[start:stop],
+            self.spindle[start:stop],
+            dwell,
+            self.line_count,
+            self.sent[start:stop],
+            self.tool[start:stop],
+            self.blind_line if start == 0 else 0,
+        )
 
     def on_panel(self, stock: Stock) -> Floats:
         """Give the points in panel coordinates, mm."""

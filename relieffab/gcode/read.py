@@ -1,4 +1,4 @@
-"""The text of a program read back as Grbl 1.1 would run it, apart from the writer."""
+"""The text of a program read back as its controller would run it, apart from the writer."""
 
 import re
 from math import inf, isnan, nan
@@ -7,8 +7,9 @@ import numpy as np
 
 from relieffab.errors import InputError
 from relieffab.gcode.arc import centre_from_radius, chords
+from relieffab.gcode.dialect import GRBL, Dialect
 from relieffab.gcode.program import Program
-from relieffab.gcode.words import MAX_CHARACTERS, Words, check_bytes, refused, split
+from relieffab.gcode.words import Words, check_bytes, refused, split
 
 GROUP = {
     **dict.fromkeys(["G0", "G1", "G2", "G3", "G80"], "motion"),
@@ -17,15 +18,17 @@ GROUP = {
     "G20": "units",
     "G21": "units",
     "G40": "cutter compensation",
+    "G43": "length offset",
     "G49": "length offset",
     "G54": "coordinates",
     "G61": "path",
-    "G80": "motion",
+    "G64": "path",
     "G90": "distance",
     "G91": "distance",
     "G91.1": "arc distance",
     "G94": "feed mode",
-    **dict.fromkeys(["M0", "M1", "M2", "M30"], "stop"),
+    **dict.fromkeys(["M0", "M1", "M2", "M30", "M400"], "stop"),
+    "M6": "cutter",
     **dict.fromkeys(["M3", "M4", "M5"], "spindle"),
     **dict.fromkeys(["M8", "M9"], "coolant"),
 }
@@ -34,7 +37,7 @@ NOT_FOLLOWED = {
     *("G10", "G18", "G19", "G28", "G28.1", "G30", "G30.1", "G38.2", "G38.3", "G38.4", "G38.5"),
     *("G43.1", "G53", "G55", "G56", "G57", "G58", "G59", "G92", "G92.1", "G93"),
 }
-VALUES = frozenset("FIJKLNPRSTXYZ")
+VALUES = frozenset("FHIJKLNPRSTXYZ")
 ARC_WORDS = frozenset("IJR")
 
 _NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
@@ -44,18 +47,20 @@ _PLAIN = re.compile(
 )
 
 
-def read_program(text: str, *, name: str = "program") -> Program:
+def read_program(text: str, *, name: str = "program", dialect: Dialect = GRBL) -> Program:
     """Interpret a program of G-code.
 
-    Takes G0-G4, G17, G20, G21, G40, G49, G54, G61, G80, G90, G91, G91.1, G94,
-    M0-M5, M8, M9, M30, F, S, T and N, in either case, with blanks and comments.
-    The program must set units and distance mode itself, and end with M2 or M30.
+    Takes the codes of the dialect, F, S, T and N, in either case, with blanks and
+    comments.  The program must set units and distance mode itself, and end as
+    programs of its dialect do.
 
     Parameters
     ----------
     text : str
     name : str
         For messages: the file's name, usually.
+    dialect : Dialect
+        Whose codes and habits hold.
 
     Raises
     ------
@@ -63,12 +68,12 @@ def read_program(text: str, *, name: str = "program") -> Program:
         Naming the line, and Grbl's own error where it has one.
     """
     check_bytes(text, name)
-    reader = _Interpreter(name)
+    reader = _Interpreter(name, dialect)
     lines = text.splitlines()
     for number, raw in enumerate(lines, 1):
         if reader.simple and (match := _PLAIN.fullmatch(raw)) and reader.plain(match, number):
             continue
-        words = split(raw, f"{name} line {number}")
+        words = split(raw, f"{name} line {number}", dialect)
         if words:
             reader.block(words, number)
     return reader.program(len(lines))
@@ -77,10 +82,17 @@ def read_program(text: str, *, name: str = "program") -> Program:
 class _Interpreter:
     """The modal state, and the motion so far."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, dialect: Dialect) -> None:
         self.name = name
+        self.dialect = dialect
+        self.ends = {"M2", "M30", dialect.end} & dialect.codes
+        self.tool = self.selected = 0
+        self.tools: list[int] = []
+        self.size = 0
+        self.sizes: list[int] = []
         self.number = 0
         self.modes: dict[str, str] = {}
+        self.named: dict[str, str] = {}
         self.scale = 1.0
         self.feed = 0.0
         self.speed = self.turning = 0.0
@@ -100,13 +112,15 @@ class _Interpreter:
     def plain(self, match: re.Match[str], number: int) -> bool:
         """Run a line of G0 or G1 and plain axis words; say whether that was possible."""
         motion, x, y, z, feed = match.groups()
+        if not (motion or self.dialect.modal):
+            return False
         rapid = (motion == "0") if motion else self.modes["motion"] == "G0"
         rate = float(feed) if feed else self.feed
-        if (not rapid and rate == 0) or match.end() > MAX_CHARACTERS or not (x or y or z):
+        if (not rapid and rate == 0) or match.end() > self.dialect.characters or not (x or y or z):
             return False
         if motion:
             self.modes["motion"] = "G" + motion
-        self.number, self.feed = number, rate
+        self.number, self.feed, self.size = number, rate, match.end() + 1
         at = self.at
         target = float(x) if x else at[0], float(y) if y else at[1], float(z) if z else at[2]
         self._record(target, inf if rapid else rate)
@@ -115,6 +129,7 @@ class _Interpreter:
     def block(self, words: Words, number: int) -> None:
         """Run one line: values, then modes, dwell and motion, in Grbl's order."""
         self.number = number
+        self.size = sum(1 + len(word[1]) for word in words) + 1
         if self.ended:
             raise InputError("there is code after the program's end", where=self.where)
         values: dict[str, float] = {}
@@ -126,9 +141,11 @@ class _Interpreter:
                 raise refused(25, self.where, letter)
             else:
                 values[letter] = float(digits)
-        modes = self._take(commands) if commands else {}
-        if "F" in values or "S" in values or not values.keys() <= {"X", "Y", "Z"}:
+        modes = self.named = self._take(commands) if commands else {}
+        if not values.keys() <= {"X", "Y", "Z"}:
             self._values(values)
+        if "cutter" in modes:
+            self._change(values)
         if "spindle" in modes or "S" in values:
             self._turn()
         if "dwell" in modes:
@@ -137,7 +154,7 @@ class _Interpreter:
             self._move(values)
         elif ARC_WORDS & values.keys():
             raise refused(36, self.where, " ".join(sorted(ARC_WORDS & values.keys())))
-        self.ended = modes.get("stop") in ("M2", "M30")
+        self.ended = modes.get("stop") in self.ends
         held = self.modes.get("motion"), self.modes.get("units"), self.modes.get("distance")
         usual = held in (("G0", "G21", "G90"), ("G1", "G21", "G90"))
         self.simple = usual and self.placed and not self.ended
@@ -154,12 +171,13 @@ class _Interpreter:
                     expected="moves in the XY plane from one work zero, in mm or inches a minute",
                     where=self.where,
                 )
-            if key not in GROUP:
+            if key not in GROUP or key not in self.dialect.codes:
                 raise refused(23 if key[0] == "M" and value % 1 else 20, self.where, command)
             if GROUP[key] in named:
                 raise refused(21, self.where, f"{named[GROUP[key]]} and {key}")
             named[GROUP[key]] = key
         self.modes.update(named)
+        self.named = named
         if "units" in named:
             self.scale = 25.4 if named["units"] == "G20" else 1.0
         return named
@@ -167,6 +185,8 @@ class _Interpreter:
     def _values(self, values: dict[str, float]) -> None:
         """Take feed and speed; refuse words that mean nothing in this line."""
         unknown = values.keys() - VALUES
+        if "G43" not in self.dialect.codes:
+            unknown |= values.keys() & {"H"}
         if unknown:
             raise refused(20, self.where, " ".join(sorted(unknown)))
         for letter in values.keys() & set("FNPST"):
@@ -175,14 +195,25 @@ class _Interpreter:
         if values.get("N", 0) > 10_000_000:
             raise refused(27, self.where, f"N{values['N']:g}")
         unused = values.keys() & set("KL")
-        if "P" in values and self.modes.get("dwell") is None:
+        if "P" in values and "dwell" not in self.named and self.named.get("path") != "G64":
             unused.add("P")
+        if "H" in values and self.named.get("length offset") != "G43":
+            unused.add("H")
         if unused:
             raise refused(36, self.where, " ".join(sorted(unused)))
         if "F" in values:
             self.feed = values["F"] * self.scale
         if "S" in values:
             self.speed = values["S"]
+        if "T" in values:
+            self.selected = int(values["T"])
+
+    def _change(self, values: dict[str, float]) -> None:
+        if "T" not in values:
+            raise refused(28, self.where, "M6 without T")
+        if self.turning:
+            raise InputError("the cutter is changed while the spindle turns", where=self.where)
+        self.tool = self.selected
 
     def _turn(self) -> None:
         on = self.modes.get("spindle") in ("M3", "M4")
@@ -193,7 +224,8 @@ class _Interpreter:
         if "P" not in values:
             raise refused(28, self.where, "G4 without P")
         before = len(self.points)
-        self.waits[before] = self.waits.get(before, 0.0) + values["P"]
+        seconds = values["P"] / self.dialect.dwell
+        self.waits[before] = self.waits.get(before, 0.0) + seconds
 
     def _move(self, values: dict[str, float]) -> None:
         """Go where X, Y and Z say, in the motion mode that holds."""
@@ -207,6 +239,10 @@ class _Interpreter:
             )
         if motion == "G80":
             raise refused(31, self.where, "G80")
+        if not (self.dialect.modal or "motion" in self.named):
+            raise InputError(
+                f"{self.dialect.title} needs G0 or G1 in every line that moves", where=self.where
+            )
         if motion != "G0" and self.feed == 0:
             raise refused(22, self.where, motion)
         target = self._target(values)
@@ -258,6 +294,8 @@ class _Interpreter:
         self.feeds.append(feed)
         self.lines.append(self.number)
         self.spindles.append(self.turning)
+        self.sizes.append(self.size)
+        self.tools.append(self.tool)
 
     def _arc(
         self, values: dict[str, float], target: tuple[float, float, float], clockwise: bool
@@ -285,7 +323,7 @@ class _Interpreter:
         if not self.ended:
             raise InputError(
                 "the program has no end",
-                expected="M30 or M2 on its last line",
+                expected=f"{' or '.join(sorted(self.ends))} on its last line",
                 where=self.name,
                 hint="the file may be cut short",
             )
@@ -300,5 +338,7 @@ class _Interpreter:
             np.array(self.spindles, dtype=float),
             dwell,
             line_count,
+            np.array(self.sizes, dtype=np.int64),
+            np.array(self.tools, dtype=np.int64),
             self.blind_line,
         )

@@ -5,7 +5,8 @@ u along the line leaves z(u) = z_p - k u + f(sqrt(p² + u²)), where k is how
 steeply the move descends and f is the cutter's profile.  f is convex and never
 falls, so z is convex in u: its least value on the move is where its slope is 0,
 brought back to the nearer end of the move.  For balls and cones that place has
-a closed form; on the torus of a bull nose it is bisected to within 1e-7 mm.
+a closed form; on the torus of a bull nose, and for profiles given by points, it
+is bisected to within 1e-7 mm.
 """
 
 import numpy as np
@@ -32,16 +33,25 @@ def profile_numbers(cutter: Cutter) -> Shape:
         Flat radius, tip radius, radius and height where the arc ends, slope of
         the flank, radius; mm.
     """
+    if cutter.shape == "form":
+        return 0.0, 0.0, cutter.radius, cutter.points[-1][1], 0.0, cutter.radius
     whole = np.isinf(cutter.flank)
     end = cutter.radius if whole else min(cutter.arc_end, cutter.radius)
     top = float(cutter.profile(min(end, cutter.arc_end)))
     return cutter.flat_radius, cutter.tip_radius, end, top, float(cutter.flank), cutter.radius
 
 
+def profile_points(cutter: Cutter) -> Floats:
+    """Give the (m, 2) points of a profile, distance and height, mm; none but of a form."""
+    return np.array(cutter.points, dtype=float).reshape(-1, 2)
+
+
 @kernel
-def profile_height(r2: float, shape: Shape) -> float:
+def profile_height(r2: float, shape: Shape, form: Floats) -> float:
     """Height of the cutter above its tip at the square of a distance, mm."""
     flat, tip, end, top, slope, radius = shape
+    if len(form):
+        return np.interp(np.sqrt(r2), form[:, 0], form[:, 1])
     if r2 <= flat * flat:
         return 0.0
     if flat == 0.0 and r2 <= end * end:
@@ -54,16 +64,25 @@ def profile_height(r2: float, shape: Shape) -> float:
 
 
 @kernel
-def profile_reach(height: float, shape: Shape) -> float:
+def profile_reach(height: float, shape: Shape, form: Floats) -> float:
     """Distance from the axis at which the cutter is so high above its tip, mm."""
     flat, tip, end, top, slope, radius = shape
+    if len(form):
+        k = len(form) - 1
+        while k > 1 and form[k - 1, 1] > height:
+            k -= 1
+        rise = form[k, 1] - form[k - 1, 1]
+        if rise <= 0.0 or height >= form[k, 1]:
+            return form[k, 0]
+        share = max(height - form[k - 1, 1], 0.0) / rise
+        return form[k - 1, 0] + share * (form[k, 0] - form[k - 1, 0])
     if height <= top:
         return flat + np.sqrt(max(tip * tip - (tip - height) ** 2, 0.0))
     return min(end + (height - top) / slope, radius)
 
 
 @kernel
-def lowest_at(p2: float, descent: float, shape: Shape) -> float:
+def lowest_at(p2: float, descent: float, shape: Shape, form: Floats) -> float:
     """Find how far ahead of a node the cutter cuts it deepest, mm.
 
     Parameters
@@ -74,11 +93,15 @@ def lowest_at(p2: float, descent: float, shape: Shape) -> float:
         How steeply the move goes down, dz per mm of XY, 0 or more.
     shape : tuple of float
         From `profile_numbers`.
+    form : (m, 2) ndarray
+        From `profile_points`.
     """
     flat, tip, end, _, slope, radius = shape
     if descent == 0.0:
         return 0.0
     limit = np.sqrt(max(radius * radius - p2, 0.0))
+    if len(form):
+        return _lowest_on_form(p2, descent, limit, form)
     rim = np.sqrt(max(flat * flat - p2, 0.0))
     if tip > 0.0 and p2 < end * end:
         low, high = rim, np.sqrt(end * end - p2)
@@ -101,6 +124,23 @@ def lowest_at(p2: float, descent: float, shape: Shape) -> float:
         return limit
     u = descent * np.sqrt(p2 / (slope * slope - descent * descent))
     return min(max(u, rim), limit)
+
+
+@kernel
+def _lowest_on_form(p2: float, descent: float, limit: float, form: Floats) -> float:
+    low, high = 0.0, limit
+    for _ in range(30):
+        u = 0.5 * (low + high)
+        r = np.sqrt(p2 + u * u)
+        k = 1
+        while k < len(form) - 1 and form[k, 0] < r:
+            k += 1
+        slope = (form[k, 1] - form[k - 1, 1]) / (form[k, 0] - form[k - 1, 0])
+        if slope * u < descent * r:
+            low = u
+        else:
+            high = u
+    return low
 
 
 @kernel
@@ -131,7 +171,9 @@ def columns(
 
 
 @kernel
-def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape) -> float:
+def lower_row(
+    row: NDArray[np.float32], start: float, pitch: float, move: Move, shape: Shape, form: Floats
+) -> float:
     """Lower one row's part under a move; give the deepest bite, mm.
 
     Parameters
@@ -147,14 +189,16 @@ def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape)
         how far from the axis the cutter meets any material.
     shape : tuple of float
         From `profile_numbers`.
+    form : (m, 2) ndarray
+        From `profile_points`.
     """
     dy, tx, ty, length, top, bottom, descent, reach = move
     reach2 = (reach * (1 + 1e-9)) ** 2
     # Ball and cone lie above a parabola, which needs no square root: f(r)/r² grows
     # along the arc and falls along the cone, so it is least at one of their ends.
     bulge = 0.0
-    if shape[0] == 0.0 and reach > 0.0:
-        bulge = profile_height(reach * reach, shape) / (reach * reach) * (1 - 1e-9)
+    if shape[0] == 0.0 and reach > 0.0 and not len(form):
+        bulge = profile_height(reach * reach, shape, form) / (reach * reach) * (1 - 1e-9)
         if shape[1] > 0.0:
             bulge = min(bulge, 0.5 / shape[1])
     deepest = 0.0
@@ -166,8 +210,8 @@ def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape)
         near2 = p2 + beyond * beyond
         if near2 > reach2 or row[j] <= bottom + near2 * bulge:
             continue
-        u = min(max(lowest_at(p2, descent, shape), -along), length - along)
-        z = top - descent * (along + u) + profile_height(p2 + u * u, shape)
+        u = min(max(lowest_at(p2, descent, shape, form), -along), length - along)
+        z = top - descent * (along + u) + profile_height(p2 + u * u, shape, form)
         if z < row[j]:
             deepest = max(deepest, row[j] - z)
             row[j] = z
@@ -176,13 +220,13 @@ def lower_row(row: Floats, start: float, pitch: float, move: Move, shape: Shape)
 
 @parallel_kernel
 def sweep(
-    heights: Floats,
+    heights: NDArray[np.float32],
     points: Floats,
-    rapid: NDArray[np.bool_],
     shape: Shape,
+    form: Floats,
     pitch: float,
     order: Ints,
-) -> Floats:
+) -> NDArray[np.float32]:
     """Lower the lattice by a cutter that goes from point to point.
 
     Each band of rows belongs to one thread and sees the moves in their order,
@@ -195,10 +239,10 @@ def sweep(
     points : (n, 3) ndarray
         X to the right of node [0, 0], Y down the rows from it, and Z, mm.
         Point 0 is where the first move starts.
-    rapid : (n,) ndarray of bool
-        Of the move to each point.
     shape : tuple of float
         From `profile_numbers`.
+    form : (m, 2) ndarray
+        From `profile_points`.
     pitch : float
         Of the lattice, mm.
     order : (bands,) ndarray of int
@@ -206,12 +250,12 @@ def sweep(
 
     Returns
     -------
-    (bands, 2) ndarray
-        The deepest bite a rapid takes out of each band, mm, and which move it is.
+    (bands, n) ndarray
+        The deepest bite each move takes out of each band, mm.
     """
     rows, cols = heights.shape
     radius = shape[5]
-    bites = np.zeros((len(order), 2))
+    bites = np.zeros((len(order), len(points)), np.float32)
     for turn in prange(len(order)):
         band = order[turn]
         first, last = band * BAND_ROWS, min((band + 1) * BAND_ROWS, rows) - 1
@@ -223,7 +267,7 @@ def sweep(
             i1 = min(last, int(np.floor((max(y0, y1) + radius) / pitch + 1e-6)))
             if i0 > i1 or z1 >= 0.0:
                 continue
-            reach = profile_reach(-z1, shape)
+            reach = profile_reach(-z1, shape, form)
             tx, ty, descent, length = 1.0, 0.0, 0.0, np.hypot(x1 - x0, y1 - y0)
             if length > 1e-9:
                 tx, ty, descent = (x1 - x0) / length, (y1 - y0) / length, (z0 - z1) / length
@@ -236,7 +280,7 @@ def sweep(
                 if j0 > j1:
                     continue
                 move = (i * pitch - y0, tx, ty, length, z0, z1, descent, reach)
-                bite = lower_row(heights[i, j0 : j1 + 1], j0 * pitch - x0, pitch, move, shape)
-                if rapid[k] and bite > bites[turn, 0]:
-                    bites[turn, 0], bites[turn, 1] = bite, k
+                row = heights[i, j0 : j1 + 1]
+                bite = lower_row(row, j0 * pitch - x0, pitch, move, shape, form)
+                bites[turn, k] = max(bites[turn, k], bite)
     return bites

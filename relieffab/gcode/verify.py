@@ -9,19 +9,25 @@ from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
+from relieffab.gcode.gouge import deepest_gouge
 from relieffab.gcode.limits import Limits, travel_findings
 from relieffab.gcode.missed import missed_patch
 from relieffab.gcode.program import Program
 from relieffab.gcode.read import read_program
-from relieffab.gcode.simulate import Carved, simulate
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.simulate import simulate
 from relieffab.grid import Grid
 from relieffab.machine import Machine
+from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
-from relieffab.stock import Stock
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 
-HALF_STEP = 0.0005  # mm, half of what a written coordinate can express
+REFINE, LARGE = 4, 4_000_000
+"""Lattice nodes a pixel, half of that for reliefs of more pixels than `LARGE`."""
+
+AIR = 1e-3  # mm of material, below which a move cuts nothing
 LEAST_WITHIN = 0.9  # share of the figure that has to be within the tolerance
 
 
@@ -32,32 +38,41 @@ class Verification:
     Parameters
     ----------
     gouge_mm : float
-        Deepest cut below the relief, anywhere on the lattice: flat face too.
+        Deepest cut into the relief, square to it, anywhere: flat face too.
     excess_p99_mm : float
         99th percentile of what is left above the relief within the figure.
     within_tolerance : float
         Share of the figure's lattice nodes no further than `tolerance_mm` from
         the relief, up or down.
     tolerance_mm : float
+    air_cutting : float
+        Share of the length of moves at a feed that cuts nothing.
     ok : bool
         Whether there are no findings.
     findings : tuple of str
         What is wrong, one sentence each.
     grid : Grid
         The lattice.
-    deviation : (rows + 1, cols + 1) ndarray
+    figure : (rows + 1, cols + 1) ndarray of bool
+        Nodes of the lattice on the figure.
+    deviation : (rows + 1, cols + 1) ndarray of float32
         Carved height less the relief's at the lattice's nodes, mm; negative
         where too much is gone.  Read-only.
+    carved : (rows + 1, cols + 1) ndarray of float32
+        What is left of the stock at the lattice's nodes, mm.  Read-only.
     """
 
     gouge_mm: float
     excess_p99_mm: float
     within_tolerance: float
     tolerance_mm: float
+    air_cutting: float
     ok: bool
     findings: tuple[str, ...]
     grid: Grid = field(repr=False)
-    deviation: Floats = field(repr=False)
+    figure: NDArray[np.bool_] = field(repr=False)
+    deviation: Singles = field(repr=False)
+    carved: Singles = field(repr=False)
 
     def __post_init__(self) -> None:
         self.deviation.flags.writeable = False
@@ -67,34 +82,38 @@ def verify(
     programs: Sequence[Program | str],
     cutters: Sequence[Cutter],
     relief: Relief,
-    stock: Stock,
-    machine: Machine,
+    setup: Setup,
     *,
     tolerance: float = 0.1,
-    gouge_limit: float = 0.02,
+    gouge_limit: float = 0.01,
+    refine: int | None = None,
+    progress: Progress = silent,
 ) -> Verification:
     """Run programs on a virtual stock and compare what is left with the relief.
 
-    Heights are compared vertically, at the nodes of a lattice twice as fine as
-    the relief's: there the triangulated relief is known without interpolation
-    error, and a vertical distance is never less than the one along the wall's
-    normal, so that it cannot hide a gouge.  On steep walls it overstates: half
-    a written step of 0.001 mm sideways is 0.02 mm downwards at 88.5 degrees.
-    What that half step explains is not called a gouge.
+    Heights are compared at the nodes of a lattice four times as fine as the
+    relief's, where the triangulated relief is known without interpolation error.
+    Excess is vertical, a gouge is square to the surface.  The depth of each pass is
+    asked at the relief's own nodes: what stands between them, thinner than a pixel,
+    is no load on a cutter.
 
     Parameters
     ----------
     programs : sequence of Program or str
         In the order in which they run; texts are read first.
     cutters : sequence of Cutter
-        One a program.
+        One a program; a program that changes cutters counts once for each.
     relief : Relief
-    stock : Stock
-    machine : Machine
+    setup : Setup
+        Machine, material and stock.
     tolerance : float
         Accepted difference, mm.
     gouge_limit : float
         Accepted gouge, mm.
+    refine : int, optional
+        Lattice nodes a pixel; four, or two for a relief of more than 4 million pixels.
+    progress : Progress
+        Told of mm run.
 
     Raises
     ------
@@ -105,23 +124,24 @@ def verify(
         raise InputError("there is no program to verify")
     if not relief.mask.any():
         raise InputError("the relief has no figure to judge by")
-    read = [
-        read_program(program, name=f"program {k}") if isinstance(program, str) else program
-        for k, program in enumerate(programs, 1)
-    ]
-    carved = simulate(read, cutters, relief.grid, stock)
+    if refine is None:
+        refine = REFINE if relief.mask.size <= LARGE else REFINE // 2
+    read = [part for program in _read(programs, setup) for part in program.by_tool()]
+    carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
+    coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)
     deviation = carved.heights - _wanted(carved.grid, relief)
-    inside = deviation[figure_nodes(relief, carved.grid)]
-    gouge, place = _gouge(carved, relief, deviation)
+    figure = figure_nodes(relief, carved.grid)
+    inside = deviation[figure]
+    gouge, x, y = deepest_gouge(relief, carved.grid, carved.heights, deviation)
     within = float((np.abs(inside) <= tolerance).mean())
     findings = [
         text
-        for program, cutter in zip(read, cutters, strict=True)
-        for text in _motion(program, Limits(relief.depth, cutter, stock, machine))
+        for program, cutter, bites in zip(read, cutters, coarse.bites, strict=True)
+        for text in _motion(program, setup.limits(cutter), bites)
     ]
-    findings += _together(read, machine) + list(carved.bites)
+    findings += _together(read, setup.machine) + list(carved.crashes)
     if gouge > gouge_limit:
-        findings.append(f"gouges the relief by {gouge:.3f} mm at {place} on the panel")
+        findings.append(f"gouges the relief by {gouge:.3f} mm at X {x:.2f} Y {y:.2f} on the panel")
     if within < LEAST_WITHIN:
         findings.append(f"only {within:.1%} of the figure is within {tolerance:g} mm of the relief")
     findings += _missed(carved.grid, relief, deviation, _finisher(read, cutters), tolerance)
@@ -130,11 +150,46 @@ def verify(
         excess_p99_mm=max(0.0, float(np.percentile(inside, 99))),
         within_tolerance=within,
         tolerance_mm=tolerance,
+        air_cutting=air_cutting(read, carved.bites),
         ok=not findings,
         findings=tuple(findings),
         grid=carved.grid,
+        figure=figure,
         deviation=deviation,
+        carved=carved.heights,
     )
+
+
+def _read(programs: Sequence[Program | str], setup: Setup) -> list[Program]:
+    dialect = setup.post.dialect
+    return [
+        read_program(program, name=f"program {k}", dialect=dialect)
+        if isinstance(program, str)
+        else program
+        for k, program in enumerate(programs, 1)
+    ]
+
+
+def air_cutting(programs: Sequence[Program], bites: Sequence[Floats]) -> float:
+    """Measure how much of the way at a feed takes no material.
+
+    Parameters
+    ----------
+    programs : sequence of Program
+    bites : sequence of (n,) ndarray
+        Deepest bite of every move, mm.
+
+    Returns
+    -------
+    float
+        Share of the length, 0 to 1.
+    """
+    total = sum(program.cutting_length for program in programs)
+    idle = sum(
+        float(program.lengths[~program.rapid & (deepest < AIR)].sum())
+        for program, deepest in zip(programs, bites, strict=True)
+    )
+    return idle / total if total else 0.0
 
 
 def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
@@ -161,24 +216,13 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     return nodes
 
 
-def _wanted(grid: Grid, relief: Relief) -> Floats:
+def _wanted(grid: Grid, relief: Relief) -> Singles:
     """Give the relief's height at the lattice's nodes, a few rows at a time, mm."""
     x, y = grid.node_axes()
     bands = np.array_split(y, max(1, len(y) // 32))
-    return np.concatenate([relief.height_at(x[None, :], band[:, None]) for band in bands])
-
-
-def _gouge(carved: Carved, relief: Relief, deviation: Floats) -> tuple[float, str]:
-    """Find the deepest gouge, mm, beyond what half a written step sideways explains."""
-    rows, cols = np.nonzero(deviation < 0)
-    if not len(rows):
-        return 0.0, ""
-    x, y = carved.grid.to_xy(rows.astype(float), cols.astype(float))
-    sides = [(dx, dy) for dx in (-HALF_STEP, HALF_STEP) for dy in (-HALF_STEP, HALF_STEP)]
-    around = [relief.height_at(x + dx, y + dy) for dx, dy in [(0.0, 0.0), *sides]]
-    depth = np.min(around, axis=0) - carved.heights[rows, cols]
-    worst = int(depth.argmax())
-    return max(0.0, float(depth[worst])), f"X {x[worst]:.2f} Y {y[worst]:.2f}"
+    return np.concatenate(
+        [relief.height_at(x[None, :], band[:, None]).astype(np.float32) for band in bands]
+    )
 
 
 def _finisher(programs: Sequence[Program], cutters: Sequence[Cutter]) -> Cutter:
@@ -188,7 +232,7 @@ def _finisher(programs: Sequence[Program], cutters: Sequence[Cutter]) -> Cutter:
 
 
 def _missed(
-    grid: Grid, relief: Relief, deviation: Floats, cutter: Cutter, tolerance: float
+    grid: Grid, relief: Relief, deviation: Singles, cutter: Cutter, tolerance: float
 ) -> list[str]:
     """Report a patch larger than the cutter that it could have cut and did not."""
     refine = round(relief.grid.pitch / grid.pitch)
@@ -204,10 +248,10 @@ def _missed(
     ]
 
 
-def _motion(program: Program, limits: Limits) -> list[str]:
+def _motion(program: Program, limits: Limits, bites: Floats) -> list[str]:
     """List what is wrong with a program's motion by itself."""
     points = program.on_panel(limits.stock)
-    findings = list(limits.findings(points, program.feed, program.line))
+    findings = list(limits.findings(points, program.feed, bites, program.line))
     below = (points[:, 2] < 0) & ~program.rapid & (program.spindle <= 0)
     if below.any():
         line = program.line[below.argmax()]

@@ -3,6 +3,7 @@
 import re
 
 from relieffab.errors import InputError
+from relieffab.gcode.dialect import Dialect
 
 # The numbers and their meanings are those of Grbl 1.1 (doc/csv/error_codes_en_US.csv).
 MEANING = {
@@ -26,10 +27,9 @@ MEANING = {
     36: "a value word that no command uses",
 }
 
-MAX_CHARACTERS = 79
-
 _WORD = re.compile(r"([A-Z])([-+]?(?:\d+\.?\d*|\.\d+))|(.)")
 _COMMENT = re.compile(r"\([^)]*\)?|;.*")
+_TO_THE_END = re.compile(r";.*")
 _ACTS_ANYWHERE = re.compile(r"[!~?]|[^\t\r\n -~]")
 
 Words = list[tuple[str, str, str]]
@@ -52,7 +52,7 @@ def check_bytes(text: str, name: str) -> None:
         )
 
 
-def split(raw: str, where: str) -> Words:
+def split(raw: str, where: str, dialect: Dialect) -> Words:
     """Split a line into (letter, number, '') words; comments and blanks drop out.
 
     Parameters
@@ -61,13 +61,15 @@ def split(raw: str, where: str) -> Words:
         The line as it stands in the file.
     where : str
         File and line, for messages.
+    dialect : Dialect
+        Which says how comments look, and how long a line may be.
     """
     text = raw.upper()
     if "(" in text or ";" in text:
-        text = _COMMENT.sub("", text)
+        text = (_COMMENT if dialect.comments == "(" else _TO_THE_END).sub("", text)
     if " " in text or "\t" in text or "\r" in text:
         text = "".join(text.split())
-    if len(text) > MAX_CHARACTERS:
+    if len(text) > dialect.characters:
         raise refused(11, where, f"{len(text)} characters")
     words = _WORD.findall(text)
     for word in words:

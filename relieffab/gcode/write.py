@@ -1,107 +1,130 @@
-"""A toolpath as text: G-code of the Grbl 1.1 dialect, plain enough for any other."""
+"""Toolpaths as text: one program for a machine, read back and judged before it is given out."""
 
-import textwrap
-import unicodedata
-from collections.abc import Iterator, Mapping
-from functools import lru_cache
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from relieffab import __version__
 from relieffab.errors import FindingsError, InputError
-from relieffab.gcode.estimate import motion_seconds
-from relieffab.gcode.limits import Limits
+from relieffab.gcode.header import comments
+from relieffab.gcode.moves import lines, moves_of
+from relieffab.gcode.program import Program
+from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
 from relieffab.machine import Machine
-from relieffab.stock import Stock
 from relieffab.toolpath.path import Toolpath
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-PER_MM = 1000  # steps of a written coordinate
-LINE_LENGTH = 79  # characters Grbl takes in a line
 SPIN_UP = 4.0  # seconds
 
 
 def write_program(
-    toolpath: Toolpath,
-    machine: Machine,
-    stock: Stock,
+    paths: Toolpath | Sequence[Toolpath],
+    setup: Setup,
+    slab: Slab,
     *,
-    depth: float,
     header: Mapping[str, str] | None = None,
 ) -> str:
-    """Write a toolpath as a program that starts, runs and ends by itself.
+    """Write toolpaths as a program that starts, runs and ends by itself.
 
-    Absolute millimetres from the stock's work zero, to 0.001 mm: X and Y to
-    the nearest step, Z to the next one up, so that rounding never cuts deeper.
-    Moves shorter than a step are left out.
+    Absolute coordinates from the stock's work zero; X and Y to the nearest step,
+    Z to the next one up, so that rounding never cuts deeper.  Several toolpaths
+    become one program with a change of cutter (M6) before each.
 
     Parameters
     ----------
-    toolpath : Toolpath
-    machine : Machine
-    stock : Stock
-    depth : float
-        Of the relief, positive, mm: no move goes below it.
+    paths : Toolpath or sequence of Toolpath
+    setup : Setup
+        Machine, material, stock and depth: what sets the limits.
+    slab : Slab
+        The stock as the programs before this one leave it: no pass may take more
+        of it than the cutter's stepdown.  It is cut by the program.
     header : mapping of str to str, optional
-        Settings to put into comments at the head.
+        Facts to put into comments at the head, after the program's own.
 
     Returns
     -------
     str
-        ASCII, lines of at most 79 characters.
+        ASCII, in lines no longer than the dialect takes.
 
     Raises
     ------
+    InputError
+        If the dialect cannot say what is asked, or the spindle cannot turn so.
     FindingsError
-        If the motion breaks a limit of depth, flutes, stock, travel or feed;
-        nothing is written then.
+        If the motion, read back from the text, breaks a limit of depth, pass, flutes,
+        stock, travel or feed; the slab is as it was then.
     """
-    steps, feed = _steps(toolpath, machine, stock)
-    panel = steps / PER_MM + np.asarray(stock.work_zero)
-    _guard(toolpath, Limits(depth, toolpath.cutter, stock, machine), panel, feed)
-    seconds = motion_seconds(panel, feed, machine) + SPIN_UP
-    lines = [
-        *_comments(toolpath, panel, machine, seconds, header or {}),
-        "G21 G90 G17 G94 G54",
-        f"G0 Z{number(int(steps[0, 2]))}",
-        f"M3 S{_spindle(toolpath, machine)}",
-        f"G4 P{SPIN_UP:g}",
-        f"G0 X{number(int(steps[0, 0]))} Y{number(int(steps[0, 1]))}",
-        *_moves(steps, feed),
-        "M5",
-        "M30",
-    ]
-    return "\n".join(lines) + "\n"
+    several = [paths] if isinstance(paths, Toolpath) else list(paths)
+    _check(several, setup)
+    body = list(_body(several, setup))
+    program = _read(body, setup)
+    _guard(several, program, setup, slab)
+    head = comments(several, program, setup, header or {})
+    return "\n".join([*head, *body]) + "\n"
 
 
-def _steps(toolpath: Toolpath, machine: Machine, stock: Stock) -> tuple[Ints, Floats]:
-    """Round to written steps, and add the way in and out at the safe height."""
-    scaled = (toolpath.points - np.asarray(stock.work_zero)) * PER_MM
-    steps = np.rint(scaled).astype(np.int64)
-    steps[:, 2] = np.ceil(scaled[:, 2] - 1e-6).astype(np.int64)
-    safe = int(np.ceil((machine.safe_height - stock.work_zero[2]) * PER_MM - 1e-6))
-    ends = steps[[0, -1]]
-    ends[:, 2] = np.maximum(ends[:, 2], safe)
-    steps = np.concatenate([ends[:1], steps, ends[1:]])
-    feed = np.concatenate([[np.inf], toolpath.feed, [np.inf]])
-    moved = np.concatenate([[True], (np.diff(steps, axis=0) != 0).any(axis=1)])
-    return steps[moved], np.floor(feed[moved] * 10 + 1e-6) / 10
+def foretold(path: Toolpath, setup: Setup) -> Program:
+    """Read a toolpath as it would be written, limits aside."""
+    _check([path], setup)
+    return _read(_body([path], setup), setup)
 
 
-def _guard(toolpath: Toolpath, limits: Limits, points: Floats, feed: Floats) -> None:
-    where = f"toolpath {toolpath.name}"
-    if not feed.min() > 0:
-        raise InputError("a feed is too slow to write", expected="0.1 mm/min or more", where=where)
-    findings = limits.findings(points, feed)
-    if findings:
-        raise FindingsError(
-            "the toolpath breaks a limit; no program was written",
-            found="; ".join(findings),
-            where=where,
+def _read(body: Iterable[str], setup: Setup) -> Program:
+    return read_program("\n".join(body), dialect=setup.post.dialect)
+
+
+def check_change(cutters: int, setup: Setup) -> None:
+    """Refuse several cutters in one program where the controller changes none."""
+    dialect = setup.post.dialect
+    if cutters > 1 and "M6" not in dialect.codes:
+        raise InputError(
+            f"{dialect.title} changes no cutters within a program",
+            expected="one program a cutter",
+            found=f"{cutters} cutters",
+            where=f"machine {setup.machine.name}",
+            hint="--cutter-change files",
         )
+
+
+def _check(paths: Sequence[Toolpath], setup: Setup) -> None:
+    if not paths:
+        raise InputError("there is no toolpath to write", expected="one or more")
+    check_change(len(paths), setup)
+    for path in paths:
+        slowest = path.feed.min()
+        if slowest < np.inf and float(setup.post.feed(slowest)) <= 0:
+            raise InputError(
+                "a feed is too slow to write",
+                expected="0.1 mm/min or more",
+                where=f"toolpath {path.name}",
+            )
+
+
+def _body(paths: Sequence[Toolpath], setup: Setup) -> Iterator[str]:
+    """Write all lines but the comments."""
+    post, machine = setup.post, setup.machine
+    first, *rest = post.dialect.start or ("",)
+    yield f"{post.units_word} G90 {first}".rstrip()
+    for line in rest:
+        yield line.format(blend=post.blend())
+    for number, path in enumerate(paths, 1):
+        moves = moves_of(path, machine, setup.stock, post)
+        x, y, z = (post.number(k) for k in moves.steps[0].tolist())
+        if len(paths) > 1:
+            yield f"M6 T{number}"
+            if "G43" in post.dialect.codes:
+                yield f"G43 H{number}"
+        rapid = ("", "")
+        if post.dialect.rapid_feed:
+            rates = machine.max_rate[2], min(machine.max_rate[:2])
+            rapid = f" F{post.feed(rates[0])}", f" F{post.feed(rates[1])}"
+        yield f"G0 Z{z}{rapid[0]}"
+        yield f"M3 S{_spindle(path, machine)}"
+        yield f"G4 P{SPIN_UP * post.dialect.dwell:g}"
+        yield f"G0 X{x} Y{y}{rapid[1]}"
+        yield from lines(moves, post, machine)
+        yield "M5"
+    yield post.dialect.end
 
 
 def _spindle(toolpath: Toolpath, machine: Machine) -> int:
@@ -117,79 +140,17 @@ def _spindle(toolpath: Toolpath, machine: Machine) -> int:
     return max(1, round(toolpath.rpm / fast * machine.spindle_max_setting))
 
 
-@lru_cache(maxsize=1 << 17)
-def number(steps: int) -> str:
-    """Write thousandths of a mm as mm, in as few characters as it takes.
-
-    Examples
-    --------
-    >>> number(12500), number(-4), number(0)
-    ('12.5', '-0.004', '0')
-    """
-    sign = "-" if steps < 0 else ""
-    whole, part = divmod(abs(steps), PER_MM)
-    return f"{sign}{whole}.{part:03d}".rstrip("0").rstrip(".")
-
-
-def _moves(steps: Ints, feed: Floats) -> Iterator[str]:
-    """Write every move but the first; each word only where it changes."""
-    x, y, z = steps[0].tolist()
-    mode, rate = "G0", np.inf
-    for (to_x, to_y, to_z), to_rate in zip(steps[1:].tolist(), feed[1:].tolist(), strict=True):
-        line = ""
-        to_mode = "G0" if to_rate == np.inf else "G1"
-        if to_mode != mode:
-            line = mode = to_mode
-        if to_x != x:
-            line += "X" + number(to_x)
-        if to_y != y:
-            line += "Y" + number(to_y)
-        if to_z != z:
-            line += "Z" + number(to_z)
-        if mode == "G1" and to_rate != rate:
-            line += f"F{to_rate:.1f}".removesuffix(".0")
-            rate = to_rate
-        x, y, z = to_x, to_y, to_z
-        yield line
-
-
-def _comments(
-    toolpath: Toolpath,
-    points: Floats,
-    machine: Machine,
-    seconds: float,
-    header: Mapping[str, str],
-) -> Iterator[str]:
-    """Say at the head what the program is, in comments no controller acts on."""
-    cutter = toolpath.cutter
-    low, high = points.min(axis=0), points.max(axis=0)
-    bounds = "  ".join(
-        f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
-    )
-    facts = {
-        "relieffab": __version__,
-        "program": toolpath.name,
-        "cutter": f"{cutter.name}, {cutter.shape} {cutter.diameter:g} mm",
-        "spindle": f"{toolpath.rpm:g} rpm",
-        "machine": machine.name,
-        "bounds on the panel, mm": bounds,
-        "time": f"{int(seconds // 60)} min {int(seconds % 60)} s",
-    }
-    for name, value in [*facts.items(), *header.items()]:
-        for part in textwrap.wrap(harmless(f"{name}: {value}"), LINE_LENGTH - 2):
-            yield f"({part})"
-
-
-def harmless(text: str) -> str:
-    """Bring a comment down to bytes no controller acts on.
-
-    Grbl obeys `!`, `~`, `?` and every byte from 0x80 wherever they stand, and
-    a comment ends at its first closing parenthesis.
-
-    Examples
-    --------
-    >>> harmless("Säge (schnell!)")
-    'Sage schnell'
-    """
-    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
-    return "".join(c for c in plain if " " <= c <= "}" and c not in "!?()$%;")
+def _guard(paths: Sequence[Toolpath], program: Program, setup: Setup, slab: Slab) -> None:
+    """Refuse what breaks a limit; else let the slab be cut."""
+    trial = slab.copy()
+    for path, part in zip(paths, program.by_tool(), strict=True):
+        points = part.on_panel(setup.stock)
+        bites = trial.cut(points, path.cutter)
+        findings = setup.limits(path.cutter).findings(points, part.feed, bites)
+        if findings:
+            raise FindingsError(
+                "the toolpath breaks a limit; no program was written",
+                found="; ".join(findings),
+                where=f"toolpath {path.name}",
+            )
+    np.copyto(slab.heights, trial.heights)

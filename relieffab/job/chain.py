@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from relieffab import profiles
 from relieffab.cutter import Cutter
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.write import check_change
 from relieffab.grid import Grid
 from relieffab.job import solids
 from relieffab.job.settings import Job
@@ -61,6 +63,12 @@ def carving_of(job: Job) -> Carving:
     )
 
 
+def setup_of(job: Job, depth: float) -> Setup:
+    """Return what the programs of a relief are written for, and judged by."""
+    machine, material = machine_of(job), profiles.material(job.material)
+    return Setup(machine, material, stock_of(job), depth, job.units)
+
+
 def check(job: Job) -> None:
     """Refuse what can be seen to fail before any work is done.
 
@@ -70,10 +78,11 @@ def check(job: Job) -> None:
         If a profile is unknown, or machine, cutters, stock and depth do not fit.
     """
     carving_of(job)
-    profiles.material(job.material)
     solids.check(job)
     cutters = cutters_of(job)
-    check_tools(machine_of(job), cutters, stock_of(job), job.depth)
+    setup = setup_of(job, job.depth)
+    check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
+    check_tools(setup.machine, cutters, setup.stock, job.depth)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 

@@ -25,7 +25,11 @@ SOLIDS = {
     )
     for name in ("panel", "plaque", "mould")
 }
-PROGRAMS = ("01-rough.nc", "02-finish.nc", "03-lines.nc")
+PROGRAMS = (
+    *("00-outline.nc", "00-probe.nc"),
+    *("01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc"),
+    *("deviation.png", "look.png"),
+)
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
 ALL = (
     *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK, FRAME),

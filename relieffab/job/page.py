@@ -17,6 +17,11 @@ th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px soli
 }
 """
 
+_ALT = {
+    "deviation": "Map of what stands above the relief, or was cut below it",
+    "look": "The relief wanted, and as the programs leave it, lit alike",
+}
+
 
 def _table(head: list[str], rows: list[list[str]]) -> str:
     top = "".join(f"<th>{escape(cell)}</th>" for cell in head)
@@ -57,15 +62,26 @@ def _programs(parts: list[dict[str, Any]]) -> str:
     return _table(["program", "cutter", "lines", "time", "bounds, mm"], rows)
 
 
+def _zero(slab: Mapping[str, Any]) -> str:
+    x, y, z = slab["work_zero"]
+    level = "on the stock's face" if z == 0 else "under the stock"
+    return f"{x:g} mm right and {y:g} mm up from the stock's near left corner, {level}"
+
+
 def _verdict(part: Mapping[str, Any]) -> str:
     name, text = ("ok", "carves the relief") if part["ok"] else ("bad", "does not carve the relief")
     facts = (
         f"deepest gouge {part['gouge_mm']:.4f} mm; {part['within_tolerance']:.1%} of the figure "
-        f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm"
+        f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm; "
+        f"{part['air_cutting']:.1%} of the way at a feed is in air"
     )
     found = "".join(f"<li>{escape(finding)}</li>" for finding in part["findings"])
     listed = f"<ul>{found}</ul>" if found else ""
-    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}'
+    pictures = "".join(
+        f'<p><img src="{escape(file)}" alt="{escape(_ALT[kind])}"></p>'
+        for kind, file in part.get("pictures", {}).items()
+    )
+    return f'<p class="{name}"><b>Simulated: {text}.</b></p><p>{facts}.</p>{listed}{pictures}'
 
 
 def _solid(part: Mapping[str, Any]) -> str:
@@ -94,7 +110,7 @@ def page(report: Mapping[str, Any]) -> str:
     if "programs" in report:
         parts += [
             "<h2>Programs, in order</h2>",
-            "<p>Work zero is the near left corner of the stock, Z0 on its face.</p>",
+            f"<p>Work zero: {_zero(report['slab'])}.</p>",
             _programs(report["programs"]),
         ]
     for solid in SOLIDS:

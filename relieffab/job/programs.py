@@ -1,25 +1,24 @@
-"""The programs of a job: written with all that judges them, and judged from their files."""
+"""The programs of a job, written with all that judges them."""
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from relieffab import profiles
-from relieffab.cutter import Cutter
-from relieffab.errors import InputError
+from relieffab.gcode.aids import outline_program, probe_program
 from relieffab.gcode.estimate import estimate
+from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
-from relieffab.gcode.verify import Verification, verify
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import write_program
+from relieffab.job.chain import setup_of
 from relieffab.job.settings import Job
-from relieffab.job.stocks import machine_of, stock_of
-from relieffab.machine import Machine, Material
+from relieffab.machine import cutting, known_use
 from relieffab.relief.model import Relief
-from relieffab.stock import Stock
 from relieffab.toolpath.path import Toolpath
 
 Part = dict[str, Any]
@@ -30,53 +29,92 @@ NUMBERS = {"rough": 1, "finish": 2, "lines": 3}
 def write(
     paths: Sequence[Toolpath], relief: Relief, job: Job, report: Mapping[str, Any], folder: Path
 ) -> Part:
-    """Write one program a cutter.
+    """Write one program a cutter, or one that changes cutters.
 
     Returns
     -------
     dict
-        report.json's `programs`, `machine`, `material`, and `slab`: enough to
-        judge the programs anywhere, whatever the profiles there say.
+        report.json's `aids`, `programs`, `machine`, `material`, and `slab`: enough
+        to judge the programs anywhere, whatever the profiles there say.
     """
-    machine, stock = machine_of(job), stock_of(job)
-    material = profiles.material(job.material)
-    notes = material_notes(material, paths)
-    header = {"model": report["model"]["name"], "material": material.title, **_numbered(notes)}
+    setup = setup_of(job, relief.depth)
+    slab = Slab.whole(relief.grid, setup.stock)
+    fit = {path.name: paced(path, setup) for path in paths}
+    paths = [one.path for one in fit.values()]
+    starving = [one.warning for one in fit.values() if one.warning]
+    notes = [*material_notes(setup, paths), *starving]
+    header = {**_origin(report), **_numbered(notes)}
     parts = []
-    for path in paths:
-        name = f"{NUMBERS[path.name]:02d}-{path.name}.nc"
-        text = write_program(path, machine, stock, depth=relief.depth, header=header)
+    for name, several in _files(paths, job):
+        text = write_program(several, setup, slab, header=header)
         (folder / name).write_text(text, encoding="ascii", newline="\n")
-        program = read_program(text, name=name)
-        parts.append(
+        program = read_program(text, name=name, dialect=setup.post.dialect)
+        parts += [
             {
                 "file": name,
                 "cutter": asdict(path.cutter),
                 "rpm": path.rpm,
+                "feeds": asdict(cutting(path.cutter, setup.material, setup.machine)),
                 "lines": text.count("\n"),
-                "seconds": round(estimate(program, machine), 1),
+                "seconds": round(estimate(part, setup.machine), 1),
+                "starved": round(fit[path.name].pace.starved, 4),
+                "simplified_mm": fit[path.name].tolerance,
                 "cut_mm": round(path.cutting_length, 1),
-                "bounds_mm": np.round(program.bounds, 4).tolist(),
-                "sha256": _hash(folder / name),
+                "bounds_mm": np.round(part.bounds, 4).tolist(),
+                "sha256": file_hash(folder / name),
             }
-        )
+            for path, part in zip(several, program.by_tool(), strict=True)
+        ]
     return {
+        "aids": _aids(setup, job, folder),
         "programs": parts,
-        "machine": asdict(machine),
-        "material": {**asdict(material), "notes": notes},
-        "slab": asdict(stock),
+        "units": setup.units,
+        "machine": asdict(setup.machine),
+        "material": {**asdict(setup.material), "notes": notes},
+        "slab": asdict(setup.stock),
     }
 
 
-def material_notes(material: Material, paths: Sequence[Toolpath]) -> list[str]:
+def _aids(setup: Setup, job: Job, folder: Path) -> list[Part]:
+    """Write what helps to set the job up."""
+    texts = {"00-outline.nc": outline_program(setup)}
+    if job.plate is not None:
+        texts["00-probe.nc"] = probe_program(setup, job.plate)
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="ascii", newline="\n")
+    return [{"file": name, "sha256": file_hash(folder / name)} for name in texts]
+
+
+def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath]]]:
+    if job.cutter_change == "pause":
+        return [("programs.nc", list(paths))]
+    return [(f"{NUMBERS[path.name]:02d}-{path.name}.nc", [path]) for path in paths]
+
+
+def _origin(report: Mapping[str, Any]) -> dict[str, str]:
+    """Say what the programs come from, so that the job can be done again."""
+    model, settings = report["model"], report["settings"]
+    facts = {"model": model["name"]}
+    if model.get("sha256"):
+        facts["model sha256"] = model["sha256"]
+    if report.get("relief", {}).get("sha256"):
+        facts["relief sha256"] = report["relief"]["sha256"]
+    return facts | {"settings": ", ".join(f"{name}={text}" for name, text in settings.items())}
+
+
+def material_notes(setup: Setup, paths: Sequence[Toolpath]) -> list[str]:
     """Say what a person has to know of the material before cutting it."""
-    notes = []
-    if not material.verified:
-        notes.append(f"feeds for {material.title.lower()} are a careful guess: start slower")
+    notes, material = [], setup.material
+    uses = {path.name: cutting(path.cutter, material, setup.machine) for path in paths}
+    guessed = [name for name, use in uses.items() if not use.verified]
+    if guessed:
+        which = "" if len(guessed) == len(paths) else f" ({', '.join(guessed)})"
+        notes.append(f"feeds for {material.title.lower()} are a careful guess{which}: start slower")
     if material.note:
         notes.append(material.note)
     for path in paths:
-        wanted = path.cutter.rpm * material.rpm
+        known = known_use(path.cutter, material, setup.machine)
+        wanted = (known.rpm if known else 0) or path.cutter.rpm * material.rpm
         if abs(path.rpm - wanted) > 1:
             notes.append(
                 f"{path.name}: the spindle turns {path.rpm:g} rpm where {wanted:g} would be right"
@@ -88,85 +126,6 @@ def _numbered(notes: Sequence[str]) -> dict[str, str]:
     return {f"note {k}": note for k, note in enumerate(notes, 1)}
 
 
-def _hash(path: Path) -> str:
+def file_hash(path: Path) -> str:
+    """Return a file's SHA-256, in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def judge(relief: Relief, report: Mapping[str, Any], folder: Path) -> Verification:
-    """Judge the programs on disk with the cutters and machine they were made for.
-
-    Raises
-    ------
-    InputError
-        If a program is missing, or the report does not hold what it takes.
-    """
-    try:
-        machine = Machine(**{**report["machine"], **_tuples(report["machine"])})
-        stock = Stock.of(report["slab"])
-        cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
-        files = [folder / str(part["file"]) for part in report["programs"]]
-    except (KeyError, TypeError, ValueError) as fault:
-        raise InputError(
-            "the report does not say what its programs were made for",
-            expected="machine, slab, and a cutter for each program",
-            found=repr(fault),
-            where=str(folder / "report.json"),
-            hint="relieffab toolpath writes them again",
-        ) from fault
-    programs = []
-    for path in files:
-        if not path.is_file():
-            raise InputError("a program of the job is missing", where=str(path))
-        programs.append(read_program(path.read_text(encoding="latin-1"), name=path.name))
-    return verify(programs, cutters, relief, stock, machine)
-
-
-def _tuples(machine: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
-    return {
-        name: tuple(machine[name]) for name in ("travel", "max_rate", "acceleration", "spindle")
-    }
-
-
-@dataclass(frozen=True)
-class Changes:
-    """What is no longer as the job left it.
-
-    Parameters
-    ----------
-    findings, notes : list of str
-        What must stop a person, and what they should know.
-    """
-
-    findings: list[str]
-    notes: list[str]
-
-
-def changes(report: Mapping[str, Any], folder: Path) -> Changes:
-    """Compare a folder with its report."""
-    listed = {str(part["file"]): part for part in report["programs"]}
-    findings = [
-        f"{path.name} lies in the folder but was not made by this job, and is not judged"
-        for path in sorted(folder.glob("*.nc"))
-        if path.name not in listed
-    ]
-    notes = [
-        f"{name} was changed after it was written"
-        for name, part in listed.items()
-        if _hash(folder / name) != part.get("sha256")
-    ]
-    if _hash(folder / "relief.tiff") != report.get("relief", {}).get("sha256"):
-        notes.append("relief.tiff was changed after it was written")
-    return Changes(findings, notes)
-
-
-def verification_part(verdict: Verification, more: Sequence[str] = ()) -> Part:
-    """Describe a verdict as report.json does."""
-    findings = [*verdict.findings, *more]
-    return {
-        "gouge_mm": round(verdict.gouge_mm, 5),
-        "excess_p99_mm": round(verdict.excess_p99_mm, 5),
-        "within_tolerance": round(verdict.within_tolerance, 5),
-        "tolerance_mm": verdict.tolerance_mm,
-        "ok": not findings,
-        "findings": findings,
-    }

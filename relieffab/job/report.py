@@ -28,6 +28,8 @@ KEYS = (
     "machine",
     "material",
     "slab",
+    "units",
+    "aids",
     "programs",
     "verification",
     "picture",

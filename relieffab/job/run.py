@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import chain, drawn, programs, solids
+from relieffab.job import chain, drawn, programs, proof, solids
 from relieffab.job.folder import (
     ALL,
     PROGRAMS,
@@ -124,8 +124,12 @@ def _prove(
     with _timed(report, "programs", progress):
         report.update(programs.write(paths, relief, job, report, folder))
     with _timed(report, "verify", progress):
-        verdict = programs.judge(relief, report, folder)
-        report["verification"] = programs.verification_part(verdict)
+        verdict = proof.judge(relief, report, folder, progress)
+        report["verification"] = {
+            **proof.verification_part(verdict, relief),
+            "certificate": proof.certificate(report, folder),
+            "pictures": proof.write_pictures(verdict, relief, folder),
+        }
     if not verdict.ok:
         raise FindingsError(
             "the programs do not carve this relief; nothing was written",
@@ -264,6 +268,6 @@ def verify_again(folder: Path) -> dict[str, Any]:
             "the job has no programs yet", where=str(folder), hint="relieffab toolpath FOLDER"
         )
     relief = read_relief(folder / "relief.tiff")
-    verdict = programs.judge(relief, report, folder)
-    changed = programs.changes(report, folder)
-    return {**programs.verification_part(verdict, changed.findings), "notes": changed.notes}
+    verdict = proof.judge(relief, report, folder)
+    changed = proof.changes(report, folder)
+    return {**proof.verification_part(verdict, relief, changed.findings), "notes": changed.notes}

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from relieffab.errors import InputError, suggest
 from relieffab.fittings import Edge, Kind
@@ -55,6 +55,11 @@ class Job:
     lines: str
     stepover: float | None
     reachable: str
+    units: Literal["mm", "in"]
+    work_zero: str
+    work_zero_z: str
+    plate: float | None
+    cutter_change: str
     mesh_tolerance: float
     solid: str
     draft: float

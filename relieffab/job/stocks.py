@@ -32,9 +32,10 @@ def stock_of(job: Job) -> Stock:
         if getattr(job, name) is not None and getattr(job, what) is None:
             raise InputError(f"{name} is given, but no {what}", where=name, hint=f"--{what}, too")
     frame = None if job.frame is None else Frame(job.frame, job.frame_height, job.frame_edge)
-    return Stock(
-        *job.size,
-        job.thickness,
+    return Stock.zeroed(
+        (*job.size, job.thickness),
+        job.work_zero,
+        job.work_zero_z,
         shape=job.outline,
         corner=job.corner,
         frame=frame,

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from relieffab import units
+from relieffab.fittings import LEVELS, PLACES
 from relieffab.job import readers
 from relieffab.layers.lines.names import NAMES, USUAL
 from relieffab.panel import formats
@@ -109,6 +110,25 @@ SETTINGS = (
         readers.one_of("no", "yes"),
         "no",
         "yes: solve again without the forms that the finest cutter cannot reach",
+    ),
+    Setting("units", readers.one_of("mm", "in"), "mm", "of the programs: mm or in"),
+    Setting(
+        "work_zero", readers.one_of(*PLACES), "near-left", "on the stock: " + ", ".join(PLACES)
+    ),
+    Setting(
+        "work_zero_z",
+        readers.one_of(*LEVELS),
+        "top",
+        "work zero's height: top or bottom of the stock",
+    ),
+    Setting(
+        "plate", readers.not_negative, "", "thickness of a touch plate: also writes a probe of Z"
+    ),
+    Setting(
+        "cutter_change",
+        readers.one_of("files", "pause"),
+        "files",
+        "files: one program a cutter; pause: one program that stops for each (M6)",
     ),
     Setting("mesh_tolerance", readers.positive, "0.02mm", "largest error of the panel's triangles"),
     Setting(

@@ -1,5 +1,7 @@
 """Presentation pictures of reliefs and panels, and their encoding."""
 
+from relieffab.picture.deviation import deviation_map
+from relieffab.picture.look import predicted_look
 from relieffab.picture.panel import panel_picture, solid_picture
 from relieffab.picture.png import png8, png16, smaller
 from relieffab.picture.render import OpenGLMissingError
@@ -7,10 +9,12 @@ from relieffab.picture.stone import hillshade, relit
 
 __all__ = [
     "OpenGLMissingError",
+    "deviation_map",
     "hillshade",
     "panel_picture",
     "png8",
     "png16",
+    "predicted_look",
     "relit",
     "smaller",
     "solid_picture",

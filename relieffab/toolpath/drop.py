@@ -2,11 +2,10 @@
 
 A cutter's profile is convex and a triangle is flat, so the gap between them is
 convex on every vertex, edge and facet: each has one first contact in closed form
-(by iteration for the arc of a bull nose along an edge).  Contact cases after
+(by iteration for an arc off the axis, as a bull nose has, along an edge).  Contact cases after
 Chuang, Chen, Yau, "A reverse engineering approach to generating interference-free
 tool paths in three-axis machining", Int J Adv Manuf Technol 19 (2002), written
-anew for one family of cutters: a flat of radius `flat`, an arc of radius `arc`,
-a cone of slope `flank` (infinite for a cylinder), cut off at `radius`.
+anew for outlines of lines and arcs.
 
 Inside, lengths are in mm from node [0, 0], x along columns and y along rows.
 """
@@ -16,36 +15,21 @@ from math import inf, sqrt
 import numpy as np
 
 from relieffab.compiled import kernel, parallel_kernel, prange
+from relieffab.toolpath.outline import (
+    ARC,
+    MID,
+    R0,
+    R1,
+    height_at,
+    radius_at,
+    slope_at,
+    touch,
+)
 
 BLOCK = 8
 CHUNK = 512
 _STEPS = 60
 _INSIDE = 1e-9
-
-
-@kernel
-def profile_height(r, flat, arc, arc_end, arc_top, flank):  # type: ignore[no-untyped-def]
-    """Height of the cutter's surface above its tip at distance r from the axis."""
-    if r <= flat:
-        return 0.0
-    if r <= arc_end:
-        across = r - flat
-        return arc - sqrt(max(arc * arc - across * across, 0.0))
-    if flank == inf:
-        return arc_top
-    return arc_top + (r - arc_end) * flank
-
-
-@kernel
-def profile_radius(height, flat, arc, arc_end, arc_top, flank, radius):  # type: ignore[no-untyped-def]
-    """Largest distance from the axis at which the cutter is no higher than `height`."""
-    if height <= 0.0:
-        return flat
-    if height < arc_top:
-        return flat + sqrt(max(arc * arc - (arc - height) ** 2, 0.0))
-    if flank == inf:
-        return radius
-    return min(arc_end + (height - arc_top) / flank, radius)
 
 
 @kernel
@@ -89,39 +73,44 @@ def _bull_reach(square, slope, flat, arc, low, high):  # type: ignore[no-untyped
 
 
 @kernel
-def _reach_on_edge(distance, slope, end, flat, arc, arc_end, flank, radius):  # type: ignore[no-untyped-def]
+def _reach_on_edge(outline, distance, slope, end):  # type: ignore[no-untyped-def]
     """Where a line of a given slope, passing the axis at a distance, touches first.
 
     Returns the way along the line from its foot to the contact, uphill
     (slope >= 0), exact up to `end`, where the edge ends.
     """
-    square = distance * distance
-    way = sqrt(max(radius * radius - square, 0.0))
     if slope == 0.0:
         return 0.0
-    low = sqrt(flat * flat - square) if distance < flat else 0.0
-    if arc > 0.0 and distance < arc_end:
-        high = sqrt(arc_end * arc_end - square)
-        if flank == inf or slope * arc_end < flank * high:
-            if flat == 0.0:
-                return min(slope * sqrt((arc * arc - square) / (1.0 + slope * slope)), way)
-            if low >= end:
-                return end
-            return min(_bull_reach(square, slope, flat, arc, low, min(high, end)), way)
-        low = high
-    if slope >= flank:
-        return way
-    cone = slope * distance / sqrt(flank * flank - slope * slope) if flank < inf else 0.0
-    return min(max(low, cone), way)
+    square = distance * distance
+    for k in range(len(outline)):
+        last = outline[k, R1]
+        if last <= distance:
+            continue
+        high = sqrt(last * last - square)
+        steep = slope_at(outline, k, last)
+        if steep * high < slope * last:
+            continue
+        first, arc, mid = outline[k, R0], outline[k, ARC], outline[k, MID]
+        low = sqrt(first * first - square) if first > distance else 0.0
+        if low >= end or (low > 0.0 and slope_at(outline, k, first) * low >= slope * first):
+            return low
+        if arc == 0.0:
+            way = slope * distance / sqrt(max(steep * steep - slope * slope, 1e-300))
+        elif mid == 0.0:
+            way = slope * sqrt(max(arc * arc - square, 0.0) / (1.0 + slope * slope))
+        else:
+            way = _bull_reach(square, slope, mid, arc, low, min(high, end))
+        return min(max(way, low), high)
+    radius = outline[-1, R1]
+    return sqrt(max(radius * radius - square, 0.0))
 
 
 @kernel
-def _drop_on_edge(  # type: ignore[no-untyped-def]
-    best, ax, ay, az, bx, by, bz, flat, arc, arc_end, arc_top, flank, radius
-):
+def drop_on_edge(best, ax, ay, az, bx, by, bz, outline):  # type: ignore[no-untyped-def]
     """Tip height at which the cutter on the origin's axis rests on the edge a-b, or `best`."""
     if az > bz:
         ax, ay, az, bx, by, bz = bx, by, bz, ax, ay, az
+    radius = outline[-1, R1]
     dx, dy = bx - ax, by - ay
     length = sqrt(dx * dx + dy * dy)
     tx, ty = dx / length, dy / length
@@ -137,18 +126,18 @@ def _drop_on_edge(  # type: ignore[no-untyped-def]
     foot = min(max(0.0, start), end)
     near = min(sqrt(distance * distance + foot * foot), radius)
     highest = az + slope * (min(end, far) - start)
-    if highest - profile_height(near, flat, arc, arc_end, arc_top, flank) <= best:
+    if highest - height_at(outline, near) <= best:
         return best
-    way = _reach_on_edge(distance, slope, end, flat, arc, arc_end, flank, radius)
+    way = _reach_on_edge(outline, distance, slope, end)
     way = min(max(way, start), end)
     r = min(sqrt(distance * distance + way * way), radius)
     height = az + slope * (way - start)
-    return max(best, height - profile_height(r, flat, arc, arc_end, arc_top, flank))
+    return max(best, height - height_at(outline, r))
 
 
 @kernel
 def _drop_on_cell(  # type: ignore[no-untyped-def]
-    best, heights, i, j, cx, cy, pitch, flat, arc, arc_end, arc_top, flank, radius
+    best, heights, i, j, cx, cy, pitch, outline
 ):
     """Tip height at which the cutter at (cx, cy) rests on cell (i, j), or `best`.
 
@@ -160,30 +149,30 @@ def _drop_on_cell(  # type: ignore[no-untyped-def]
     a, b = heights[i, j], heights[i, j + 1]
     c, d = heights[i + 1, j], heights[i + 1, j + 1]
     for x, y, z in ((x1, y0, b), (x0, y1, c), (x1, y1, d)):
-        best = _drop_on_edge(best, x0, y0, a, x, y, z, flat, arc, arc_end, arc_top, flank, radius)
+        best = drop_on_edge(best, x0, y0, a, x, y, z, outline)
     for side in range(2):
         gx = (d - c) / pitch if side == 0 else (b - a) / pitch
         gy = (c - a) / pitch if side == 0 else (d - b) / pitch
         slope = sqrt(gx * gx + gy * gy)
         px, py, r = 0.0, 0.0, 0.0
         if slope > 0.0:
-            r = radius if slope >= flank else flat + arc * slope / sqrt(1.0 + slope * slope)
+            r = touch(outline, slope)
             px, py = r * gx / slope, r * gy / slope
         u, v = (py - y0) / pitch, (px - x0) / pitch
         above = u - v if side == 0 else v - u
         if above >= -_INSIDE and min(u, v) >= -_INSIDE and max(u, v) <= 1.0 + _INSIDE:
             height = a + gx * (px - x0) + gy * (py - y0)
-            contact = height - profile_height(r, flat, arc, arc_end, arc_top, flank)
+            contact = height - height_at(outline, r)
             best = max(best, contact)
     return best
 
 
 @kernel
 def _drop_point(  # type: ignore[no-untyped-def]  # noqa: PLR0912
-    heights, cell_top, block_top, top, pitch, cx, cy, hint_i, hint_j, shape
+    heights, cell_top, block_top, top, pitch, cx, cy, hint_i, hint_j, outline
 ):
     """Tip height at one point, and the cell it rests on (the next point's hint)."""
-    flat, arc, arc_end, arc_top, flank, radius = shape
+    radius = outline[-1, R1]
     rows, cols = cell_top.shape
     width, height = cols * pitch, rows * pitch
     border = min(cx, width - cx, cy, height - cy)
@@ -191,19 +180,17 @@ def _drop_point(  # type: ignore[no-untyped-def]  # noqa: PLR0912
         return 0.0, hint_i, hint_j
     best = -inf
     if border <= radius:
-        best = -profile_height(border, flat, arc, arc_end, arc_top, flank)
+        best = -height_at(outline, border)
     wi, wj = hint_i, hint_j
     home_i, home_j = min(int(cy / pitch), rows - 1), min(int(cx / pitch), cols - 1)
     for i, j in ((hint_i, hint_j), (home_i, home_j)):
         if i >= 0:
-            rest = _drop_on_cell(
-                best, heights, i, j, cx, cy, pitch, flat, arc, arc_end, arc_top, flank, radius
-            )
+            rest = _drop_on_cell(best, heights, i, j, cx, cy, pitch, outline)
             if rest > best:
                 best, wi, wj = rest, i, j
     reach = radius
     if best > -inf:
-        reach = profile_radius(top - best, flat, arc, arc_end, arc_top, flank, radius)
+        reach = radius_at(outline, top - best)
     low_i, high_i = max(int((cy - reach) / pitch) - 1, 0), min(int((cy + reach) / pitch), rows - 1)
     low_j, high_j = max(int((cx - reach) / pitch) - 1, 0), min(int((cx + reach) / pitch), cols - 1)
     limit = radius * radius * (1.0 + 1e-12)
@@ -219,7 +206,7 @@ def _drop_point(  # type: ignore[no-untyped-def]  # noqa: PLR0912
             square = dx * dx + dy * dy
             if square > limit:
                 continue
-            near = profile_height(sqrt(square), flat, arc, arc_end, arc_top, flank)
+            near = height_at(outline, sqrt(square))
             if block - near <= best:
                 continue
             for i in range(i0, i1 + 1):
@@ -232,37 +219,23 @@ def _drop_point(  # type: ignore[no-untyped-def]  # noqa: PLR0912
                     square = ex * ex + ey * ey
                     if square > limit:
                         continue
-                    near = profile_height(sqrt(square), flat, arc, arc_end, arc_top, flank)
+                    near = height_at(outline, sqrt(square))
                     if cell - near <= best:
                         continue
-                    rest = _drop_on_cell(
-                        best,
-                        heights,
-                        i,
-                        j,
-                        cx,
-                        cy,
-                        pitch,
-                        flat,
-                        arc,
-                        arc_end,
-                        arc_top,
-                        flank,
-                        radius,
-                    )
+                    rest = _drop_on_cell(best, heights, i, j, cx, cy, pitch, outline)
                     if rest > best:
                         best, wi, wj = rest, i, j
     return best, wi, wj
 
 
 @parallel_kernel
-def drop_points(heights, cell_top, block_top, top, pitch, x, y, shape, out):  # type: ignore[no-untyped-def]
+def drop_points(heights, cell_top, block_top, top, pitch, x, y, outline, out):  # type: ignore[no-untyped-def]
     """Fill `out` with the tip heights at points (x, y), mm from node [0, 0]."""
     for chunk in prange((x.size + CHUNK - 1) // CHUNK):
         i, j = -1, -1
         for k in range(chunk * CHUNK, min((chunk + 1) * CHUNK, x.size)):
             out[k], i, j = _drop_point(
-                heights, cell_top, block_top, top, pitch, x[k], y[k], i, j, shape
+                heights, cell_top, block_top, top, pitch, x[k], y[k], i, j, outline
             )
 
 

@@ -8,18 +8,16 @@ from numpy.typing import NDArray
 from relieffab.compiled import kernel
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
-from relieffab.toolpath.drop import profile_height, profile_radius
-from relieffab.toolpath.envelope import shape_of
+from relieffab.toolpath.outline import height_at, outline_of, radius_at
 
 Floats = NDArray[np.float64]
 
 
 @kernel
-def _carve(stock, x, y, z, pitch, shape):  # type: ignore[no-untyped-def]
-    flat, arc, arc_end, arc_top, flank, radius = shape
+def _carve(stock, x, y, z, pitch, outline):  # type: ignore[no-untyped-def]
     rows, cols = stock.shape
     for k in range(x.size):
-        reach = profile_radius(-z[k], flat, arc, arc_end, arc_top, flank, radius)
+        reach = radius_at(outline, -z[k])
         low = max(int(np.ceil((y[k] - reach) / pitch)), 0)
         high = min(int(np.floor((y[k] + reach) / pitch)), rows - 1)
         for i in range(low, high + 1):
@@ -30,7 +28,7 @@ def _carve(stock, x, y, z, pitch, shape):  # type: ignore[no-untyped-def]
             for j in range(left, right + 1):
                 dx = j * pitch - x[k]
                 r = min(sqrt(dx * dx + dy * dy), reach)
-                height = z[k] + profile_height(r, flat, arc, arc_end, arc_top, flank)
+                height = z[k] + height_at(outline, r)
                 stock[i, j] = min(stock[i, j], height)
 
 
@@ -56,5 +54,5 @@ def after(stock: Floats, grid: Grid, cutter: Cutter, tips: Floats) -> Floats:
     below = np.ascontiguousarray(tips[:, 2])
     sunk = below < 0
     pitch = grid.pitch
-    _carve(left, col[sunk] * pitch, row[sunk] * pitch, below[sunk], pitch, shape_of(cutter))
+    _carve(left, col[sunk] * pitch, row[sunk] * pitch, below[sunk], pitch, outline_of(cutter))
     return left

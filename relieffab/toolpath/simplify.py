@@ -10,11 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.compiled import kernel
+from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.trace import Trace
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 _STEEPEST = 10.0
+_ASIDE = 1e-5  # mm
 
 
 @kernel
@@ -48,6 +51,23 @@ def _funnel(along, z, slack, fixed, keep, out):  # type: ignore[no-untyped-def]
         k += 1
 
 
+def _thinned(
+    xy: Floats, z: Floats, joined: Bools, corner: Bools, tolerance: float
+) -> tuple[Bools, Floats]:
+    """Choose which samples stay, and how high; those at corners and ends stay where they are."""
+    steps = np.where(joined, np.hypot(*np.diff(xy, axis=0).T), 0.0)
+    slope = np.abs(np.diff(z)) / np.maximum(steps, 1e-9)
+    slope = np.where(joined, slope, 0.0)
+    gentler = np.minimum(np.append(slope, slope[-1]), np.insert(slope, 0, slope[0]))
+    slack = tolerance * np.hypot(1.0, np.minimum(gentler, _STEEPEST))
+    last = np.append(~joined, True)
+    first = np.insert(~joined, 0, True)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    keep, out = np.zeros(len(z), bool), np.zeros(len(z))
+    _funnel(along, z, slack, corner | last | first, keep, out)
+    return keep, out
+
+
 def simplify(trace: Trace, tolerance: float) -> Trace:
     """Drop samples; the rest may rise, never sink.
 
@@ -64,17 +84,7 @@ def simplify(trace: Trace, tolerance: float) -> Trace:
     """
     if len(trace) < 2:
         return trace
-    joined = trace.joined
-    steps = np.where(joined, trace.steps, 0.0)
-    slope = np.abs(np.diff(trace.z)) / np.maximum(steps, 1e-9)
-    slope = np.where(joined, slope, 0.0)
-    gentler = np.minimum(np.append(slope, slope[-1]), np.insert(slope, 0, slope[0]))
-    slack = tolerance * np.hypot(1.0, np.minimum(gentler, _STEEPEST))
-    last = np.append(~joined, True)
-    first = np.insert(~joined, 0, True)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    keep, out = np.zeros(len(trace), bool), np.zeros(len(trace))
-    _funnel(along, trace.z, slack, trace.corner | last | first, keep, out)
+    keep, out = _thinned(trace.xy, trace.z, trace.joined, trace.corner, tolerance)
     return replace(
         trace,
         xy=trace.xy[keep],
@@ -82,3 +92,45 @@ def simplify(trace: Trace, tolerance: float) -> Trace:
         run=trace.run[keep],
         corner=trace.corner[keep],
     )
+
+
+def thin(path: Toolpath, tolerance: float) -> Toolpath:
+    """Drop points of a whole toolpath; the rest may rise, never sink.
+
+    Only moves at a feed that go straight on, seen from above, are joined; what they
+    become goes at the least of their feeds.
+
+    Parameters
+    ----------
+    path : Toolpath
+    tolerance : float
+        Largest distance to the path given, measured square to it, mm.
+
+    Returns
+    -------
+    Toolpath
+        Nowhere below the one given, but for `_ASIDE` sideways.
+    """
+    points, feed = path.points, path.feed
+    if len(points) < 3 or tolerance <= 0:
+        return path
+    xy, z = points[:, :2], points[:, 2]
+    steps = np.diff(xy, axis=0)
+    joined = np.isfinite(feed[1:]) & (np.hypot(*steps.T) > 0)
+    keep, out = _thinned(xy, z, joined, _turns(steps), tolerance)
+    kept = np.flatnonzero(keep)
+    # Of the moves from one kept point to the next, the slowest says how fast.
+    slowest = np.minimum.reduceat(feed, np.append(0, kept[:-1] + 1))
+    return replace(path, points=np.column_stack([xy[kept], out[kept]]), feed=slowest)
+
+
+def _turns(steps: Floats) -> Bools:
+    """Mark points where a line on the panel does not go straight on."""
+    a, b = steps[:-1], steps[1:]
+    lengths = np.hypot(*a.T), np.hypot(*b.T)
+    cross = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    chord = np.maximum(np.hypot(*(a + b).T), 1e-12)
+    ahead = np.einsum("ij,ij->i", a, b) > 0
+    # The middle point's distance from the line between its neighbours, and no drift of many.
+    straight = ahead & (cross / chord < _ASIDE) & (cross < 1e-6 * lengths[0] * lengths[1])
+    return np.concatenate([[True], ~straight, [True]])

@@ -56,7 +56,7 @@ def test_a_figure_without_meaning_is_a_dash():
         (["--depths", "5,,10"], "percentages"),
         (["--depths", "nan"], "percentages"),
         (["--wall-angle", "95"], "wall"),
-        (["--lines", "ball-2"], "ball-1"),
+        (["--lines", "ball-11"], "ball-1"),
         (["--method", "linear"], ""),
     ],
 )

@@ -38,13 +38,16 @@ def made(model, tmp_path_factory):
 def test_make_leaves_exactly_the_files_of_a_job(made):
     found = sorted(str(p.relative_to(made)) for p in made.rglob("*") if p.is_file())
     assert found == [
+        "00-outline.nc",
         "01-rough.nc",
         "02-finish.nc",
         "03-lines.nc",
+        "deviation.png",
         "layers/depth.png",
         "layers/lambert.png",
         "layers/lines.png",
         "layers/lines.svg",
+        "look.png",
         "panel.3mf",
         "panel.stl",
         "preview.png",
@@ -283,6 +286,76 @@ def test_a_program_that_was_changed_is_judged(made, tmp_path, capsys):
     assert "DOES NOT carve" in capsys.readouterr().out
 
 
+def test_send_asks_for_the_certificate(made, tmp_path, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    finish, port = folder / "02-finish.nc", ["--port", "sim://?speed=max"]
+    sound = finish.read_text()
+    assert run(["send", str(finish), *port]) == 0
+    assert "proved" not in capsys.readouterr().err
+
+    finish.write_text("(by hand)\n" + sound)
+    assert run(["send", str(finish), *port]) == 0
+    assert "not as it was proved; judged again, it carves" in capsys.readouterr().err
+
+    depths = [k for k, line in enumerate(sound.splitlines()) if re.match(r"X.*Z-0\.[3-9]", line)]
+    lines = sound.splitlines()
+    lines[depths[9]] = re.sub(r"Z-[0-9.]+", "Z-1.4", lines[depths[9]])
+    finish.write_text("\n".join(lines) + "\n")
+    assert run(["send", str(finish), *port]) == 1
+    told = capsys.readouterr()
+    assert "does not carve the relief; nothing sent" in told.err and "gouges" in told.err
+    assert "carved" not in told.out
+
+    outline = folder / "00-outline.nc"
+    assert run(["send", str(outline), *port]) == 0
+    outline.write_text(outline.read_text().replace("Z5", "Z-5"))
+    assert run(["send", str(outline), *port]) == 1
+    assert "not as the job wrote it" in capsys.readouterr().err
+
+    finish.write_text(sound[: len(sound) // 2])
+    assert run(["send", str(finish), *port]) == 2
+    assert run(["send", str(folder / "01-rough.nc"), *port]) == 0
+    shutil.copy(folder / "01-rough.nc", folder / "mine.nc")
+    assert run(["send", str(folder / "mine.nc"), *port]) == 0
+    assert "nobody proved it" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--units", "cm"], "mm or in"),
+        (["--work-zero", "middle"], "near-left or near"),
+        (["--cutter-change", "pause"], "changes no cutters within a program"),
+        (["--machine", ""], "no machine ''"),
+        (["--machine", "minimil"], "did you mean minimill"),
+    ],
+)
+def test_programs_that_cannot_be_are_refused(made, tmp_path, flags, words, capsys):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    before = {p.name: p.read_bytes() for p in folder.glob("*.*")}
+    assert run(["toolpath", str(folder), *flags]) == 2
+    assert words in capsys.readouterr().err
+    assert {p.name: p.read_bytes() for p in folder.glob("*.*")} == before
+
+
+def test_one_program_in_inches_from_under_the_middle(made, tmp_path):
+    folder = tmp_path / "job"
+    shutil.copytree(made, folder)
+    flags = ["--machine", "altmill-4x4", "--units", "in", "--cutter-change", "pause"]
+    place = ["--work-zero", "centre", "--work-zero-z", "bottom"]
+    assert run(["toolpath", str(folder), *flags, *place]) == 0
+    report = json.loads((folder / "report.json").read_text())
+    assert sorted(p.name for p in folder.glob("*.nc")) == ["00-outline.nc", "programs.nc"]
+    assert [part["file"] for part in report["programs"]] == ["programs.nc"] * 3
+    (x0, y0, z0), (x1, y1, z1) = report["programs"][1]["bounds_mm"]
+    assert x0 < 0 < x1 and y0 < 0 < y1 and 10 < z0 < 12 < z1
+    text = (folder / "programs.nc").read_text()
+    assert "\nM6 T3\n" in text and "\nG20 G90" in text
+    assert run(["verify", str(folder)]) == 0
+
+
 def test_layers_alone(model, tmp_path):
     folder = tmp_path / "job"
     assert run(["layers", str(model), *SMALL, "-o", str(folder)]) == 0
@@ -331,7 +404,7 @@ def test_every_setting_is_told_with_its_origin(model, tmp_path, monkeypatch, cap
         (["--depth", "25mm", "--thickness", "40mm"], "flute"),
         (["--machine", "3018-provr"], "did you mean 3018-prover"),
         (["--material", "soft-wood"], "did you mean softwood"),
-        (["--finish", "ball-2"], "ball-1"),
+        (["--finish", "ball-11"], "ball-1"),
         (["--view", "frnt"], "did you mean front"),
         (["--margin", "45mm"], "margin"),
         (["--resolution", "1024"], "1024x768"),

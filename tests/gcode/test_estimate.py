@@ -1,12 +1,17 @@
 """Running times against trapezoids worked out by hand."""
 
+import math
+from collections import deque
 from math import sqrt
 
 import numpy as np
 import pytest
 
-from relieffab.gcode.estimate import estimate, motion_seconds
+from relieffab import profiles
+from relieffab.gcode.estimate import estimate, motion_seconds, pace
 from relieffab.gcode.read import read_program
+from relieffab.grbl.program import prepare
+from relieffab.grbl.simulator.machine import SimulatedGrbl
 from relieffab.machine import Machine
 
 
@@ -17,6 +22,7 @@ def machine(**changes):
         "junction_deviation": 0.01,
         "planner_blocks": 1000,
         "line_rate": 1e9,
+        "baud": 1e12,
     }
     return Machine(
         "mill", "", (500.0,) * 3, spindle=(0.0, 1e4), spindle_max_setting=1e3, **values | changes
@@ -98,6 +104,74 @@ def test_chords_of_one_arc_cost_one_line():
     arc = read_program(head + "G2 X20 I10 F600\nM30")
     quick = estimate(arc, machine())
     assert estimate(arc, machine(line_rate=10.0)) == pytest.approx(quick + 0.1, abs=1e-3)
+
+
+def test_a_slow_wire_holds_lines_up():
+    text = "G21 G90\nG0 Z5\nX0 Y0\nG1 F6000\n" + "\n".join(f"X{k}.5Y0" for k in range(90))
+    program = read_program(text + "\nM30")
+    assert program.sent[-3:].tolist() == [8, 8, 8]
+    # Ten bits a character: 8 characters in 0.5 s.
+    assert estimate(program, machine(baud=160.0)) == pytest.approx(45, rel=0.02)
+
+
+def dense(step, feed, deep, every_feed):
+    """Rows of small moves over waves, from near where the machine stands."""
+    rng = np.random.default_rng(0)
+    way = np.arange(2500) * step
+    x, y = way % 80, 0.3 * (way // 80)
+    z = -0.5 - deep * np.sin(2 * way) + rng.normal(0, 0.01 * deep, len(way))
+    feeds = [f"F{feed - k}" if every_feed else "" for k in rng.integers(0, 9, len(way))]
+    moves = [f"X{a:.3f}Y{b:.3f}Z{c:.3f}{f}" for a, b, c, f in zip(x, y, z, feeds, strict=True)]
+    head = ["G21 G90", "G0Z0.01", "G0X0.01Y0", "M3S1000", f"G1F{feed}"]
+    return "\n".join([*head, *moves, "G0Z5", "M5", "M30"])
+
+
+def simulated(text, one):
+    """Seconds a simulated Grbl with the machine's figures takes, fed by counting characters."""
+    settings = {11: one.junction_deviation}
+    for axis in range(3):
+        settings |= {100 + axis: 1000, 110 + axis: one.max_rate[axis]}
+        settings |= {120 + axis: one.acceleration[axis], 130 + axis: 1000}
+    grbl = SimulatedGrbl(
+        settings=settings,
+        rx_buffer=one.rx_buffer,
+        planner_blocks=one.planner_blocks,
+        line_rate=one.line_rate,
+        baud=one.baud,
+        boot=0.0,
+    )
+    grbl.run(0.01)
+    start, waiting, lines = grbl.now, deque(), deque(prepare(text).text.splitlines(True))
+    while lines or waiting or grbl.state != "Idle":
+        while lines and sum(waiting) + len(lines[0]) <= one.rx_buffer:
+            waiting.append(len(lines[0]))
+            grbl.write(lines.popleft())
+        said = grbl.wire.sent[0][0] if grbl.wire.sent else math.inf
+        grbl.step(min(grbl.next_event(), said))
+        while grbl.wire.sent and grbl.wire.sent[0][0] <= grbl.now:
+            assert b"error" not in grbl.wire.sent[0][1]
+            if grbl.wire.sent.popleft()[1].startswith(b"ok"):
+                waiting.popleft()
+    return grbl.now - start
+
+
+@pytest.mark.parametrize(
+    "name", ["3018-prover", "shapeoko-3", "x-carve-1000", "longmill-mk2-30x30", "altmill-4x4"]
+)
+@pytest.mark.parametrize(
+    "path", [(0.05, 3000, 0.1, False), (0.1, 3000, 0.5, True), (0.3, 4000, 0.5, False)]
+)
+def test_within_two_percent_of_the_simulated_controller(name, path):
+    one, text = profiles.machine(name), dense(*path)
+    assert estimate(read_program(text), one) == pytest.approx(simulated(text, one), rel=0.02)
+
+
+def test_what_starves_a_planner():
+    program = read_program(dense(0.02, 3000, 0.1, True))
+    shown = pace(program, profiles.machine("shapeoko-3"))
+    assert shown.seconds > 2 * shown.unhindered
+    assert shown.starved == pytest.approx(1 - shown.unhindered / shown.seconds)
+    assert pace(program, machine()).starved < 1e-9
 
 
 def test_no_motion_takes_no_time():

@@ -11,11 +11,12 @@ MACHINE = Machine(
     "mill", "", (100.0, 80.0, 20.0), (1000.0, 900.0, 300.0), (30.0,) * 3, (0.0, 1e4), 1e3
 )
 FLAT = Cutter("flat", "flat", 2.0, 6.0, 1.0, 800.0, 300.0, 8000.0)
-LIMITS = Limits(4.0, FLAT, Stock(100.0, 80.0, 10.0), MACHINE)
+LIMITS = Limits(4.0, 1.0, FLAT, Stock(100.0, 80.0, 10.0), MACHINE)
 
 
-def findings(points, feed, line=None):
-    return LIMITS.findings(np.array(points, float), np.array(feed, float), line)
+def findings(points, feed, line=None, bites=None):
+    bites = np.zeros(len(points)) if bites is None else np.array(bites)
+    return LIMITS.findings(np.array(points, float), np.array(feed, float), bites, line)
 
 
 def test_motion_at_the_limits_is_fine():

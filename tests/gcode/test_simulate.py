@@ -1,5 +1,6 @@
 """Grooves whose shape is known, and a slow twin that samples every move densely."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numba
@@ -9,7 +10,8 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.program import Program
-from relieffab.gcode.simulate import lattice, simulate
+from relieffab.gcode.simulate import simulate
+from relieffab.gcode.slab import lattice
 from relieffab.grid import Grid
 from relieffab.stock import Stock
 
@@ -27,6 +29,8 @@ CUTTERS = [
     cutter("vee", angle=30.0, tip_diameter=0.4),
     cutter("tapered ball", angle=20.0, tip_diameter=1.0),
     cutter("tapered ball", angle=90.0, tip_diameter=1.4),
+    cutter("form", points=((0.0, 0.0), (0.3, 0.0), (0.7, 0.2), (1.2, 0.9), (1.5, 2.5))),
+    cutter("form", points=((0.0, 0.0), (0.5, 0.3), (1.5, 1.6))),
 ]
 GRID = Grid(40, 60, 0.25, (2.0, 12.0))
 STOCK = Stock(20.0, 15.0, 10.0)
@@ -44,6 +48,8 @@ def program(points, rapid=(), name="job.nc"):
         np.ones(count),
         np.zeros(count + 1),
         count,
+        np.ones(count, np.int64),
+        np.zeros(count, np.int64),
     )
 
 
@@ -142,7 +148,7 @@ def test_chunks_join_without_a_seam(monkeypatch):
     points = rng.uniform([2, 2, -3], [16, 12, 1], (40, 3))
     whole = carve(points, CUTTERS[1])
     told = []
-    monkeypatch.setattr("relieffab.gcode.simulate.CHUNK", 7)
+    monkeypatch.setattr("relieffab.gcode.slab.CHUNK", 7)
     parts = carve(points, CUTTERS[1], progress=lambda *words: told.append(words))
     assert np.array_equal(whole.heights, parts.heights)
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
@@ -162,13 +168,13 @@ def test_programs_follow_one_another_from_one_work_zero():
 def test_a_rapid_through_material_is_told_where():
     points = [[4, 6, 5], [4, 6, -1], [4, 6, 5], [14, 6, 5], [14, 6, -2], [5, 6, -2]]
     run = program(points, rapid=[0, 2, 3, 5])
-    (text,) = simulate([run], [CUTTERS[0]], GRID, STOCK).bites
+    (text,) = simulate([run], [CUTTERS[0]], GRID, STOCK).crashes
     assert text == "job.nc line 6: a rapid goes through 2.000 mm of material"
 
 
 def test_rapids_in_the_air_and_in_a_cut_groove_bite_nothing():
     points = [[4, 6, 0], [4, 6, -2], [14, 6, -2], [4, 6, -2], [4, 6, 5]]
-    assert simulate([program(points, rapid=[0, 3, 4])], [CUTTERS[0]], GRID, STOCK).bites == ()
+    assert simulate([program(points, rapid=[0, 3, 4])], [CUTTERS[0]], GRID, STOCK).crashes == ()
 
 
 def test_the_lattice_holds_cuts_beyond_the_relief_but_not_beyond_the_stock():
@@ -192,3 +198,17 @@ def test_bad_use():
         simulate([program([[0, 0, 1]])], [], GRID, STOCK)
     with pytest.raises(InputError, match="coarser"):
         carve([[5, 6, -1], [8, 6, -1]], CUTTERS[0], refine=0)
+
+
+def test_a_shank_wider_than_the_flutes_rubs_where_it_goes_below_what_stands():
+    stub = cutter("flat", diameter=1.0, shank_diameter=3.0)
+    stub = replace(stub, flute_length=2.0)
+    deep = [[5, 8, 1], [5, 8, -2.5], [9, 8, -2.5], [9, 8, 1]]
+    (text,) = simulate([program(deep)], [stub], GRID, STOCK).crashes
+    assert "job.nc line 2: the shank of flat rubs through 0.500 mm" in text
+    shallow = np.array(deep) * [1, 1, 0.8]
+    assert simulate([program(shallow)], [stub], GRID, STOCK).crashes == ()
+    # A pocket as wide as the shank takes it.
+    wide = cutter("flat", diameter=5.0)
+    runs = [program([[4, 8, 1], [4, 8, -1], [10, 8, -1], [10, 8, 1]]), program(deep)]
+    assert simulate(runs, [wide, stub], GRID, STOCK).crashes == ()

@@ -8,10 +8,12 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.missed import missed_patch
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
 from relieffab.gcode.verify import figure_nodes, verify
 from relieffab.gcode.write import write_program
 from relieffab.grid import Grid
-from relieffab.machine import Machine
+from relieffab.machine import Machine, Material
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 from relieffab.toolpath.envelope import Terrain, tip_heights
@@ -21,7 +23,9 @@ MACHINE = Machine(
     "mill", "", (200.0, 160.0, 40.0), (1500.0,) * 3, (300.0,) * 3, (2000.0, 10000.0), 10000.0
 )
 STOCK = Stock(30.0, 20.0, 8.0, work_zero=(15.0, 10.0, 0.0))
-BALL = Cutter("ball-2", "ball", 2.0, 6.0, 1.0, 800.0, 300.0, 8000.0)
+BALL = Cutter("ball-2", "ball", 2.0, 6.0, 2.5, 800.0, 300.0, 8000.0)
+WOOD = Material("wood", "Wood", 1.0, 1.0)
+SETUP = Setup(MACHINE, WOOD, STOCK, 2.0)
 
 
 def bowl():
@@ -46,14 +50,14 @@ def finish(stepover=0.5):
         points += [[[x[0], y, 5]], row, [[x[-1], y, 5]]]
         feed += [[np.inf, 300], [800] * (len(x) - 1), [np.inf]]
     path = Toolpath("finish", np.concatenate(points), np.concatenate(feed), BALL, 8000.0)
-    return write_program(path, MACHINE, STOCK, depth=RELIEF.depth)
+    return write_program(path, SETUP, Slab.whole(RELIEF.grid, STOCK))
 
 
 TEXT = finish()
 
 
 def judge(text, **options):
-    return verify([text], [BALL], RELIEF, STOCK, MACHINE, **options)
+    return verify([text], [BALL], RELIEF, SETUP, **options)
 
 
 def found(text, **options):
@@ -69,7 +73,7 @@ def test_a_sound_program_passes():
     # Rows 0.5 mm apart with a ball of 1 mm radius leave scallops of 0.032 mm.
     assert 0.015 < result.excess_p99_mm < 0.04
     assert result.within_tolerance > 0.999
-    assert result.deviation.shape == result.grid.node_shape == (201, 301)
+    assert result.deviation.shape == result.grid.node_shape == (401, 601)
     assert result.tolerance_mm == 0.05
 
 
@@ -89,7 +93,7 @@ def test_a_gouge_of_a_twentieth_is_caught():
     assert 0.045 < result.gouge_mm < 0.055
     assert result.deviation.min() == pytest.approx(-result.gouge_mm, abs=0.002)
     assert judge(deepen(TEXT, 0.05), gouge_limit=0.06).ok
-    assert judge(deepen(TEXT, 0.015)).ok
+    assert judge(deepen(TEXT, 0.009)).ok
 
 
 def without_row(text, y):
@@ -142,27 +146,27 @@ def test_seeded_faults_are_caught(change, words):
 def test_programs_share_one_travel():
     left = "G21 G90\nG0 Z5\nX-150 Y0\nX0\nM30"
     right = "G21 G90\nG0 Z5\nX150 Y0\nX0\nM30"
-    result = verify([TEXT, left, right], [BALL] * 3, RELIEF, STOCK, MACHINE)
+    result = verify([TEXT, left, right], [BALL] * 3, RELIEF, SETUP)
     (text,) = result.findings
     assert text.startswith("all programs: moves over 300.000 mm of X")
 
 
-def test_steep_walls_forgive_half_a_written_step_and_no_more():
+def test_a_gouge_is_measured_square_to_a_wall():
     grid = Grid(20, 20, 0.1, (0.0, 2.0))
     heights = np.zeros(grid.node_shape)
     heights[:, 10:] = -4.0
     relief = Relief(grid, heights, np.ones(grid.shape, bool), 4.0)
     flat = Cutter("flat", "flat", 1.0, 6.0, 1.0, 800.0, 300.0, 8000.0)
-    machine, stock = MACHINE, Stock(2.0, 2.0, 8.0)
+    setup = Setup(MACHINE, WOOD, Stock(2.0, 2.0, 8.0), 4.0)
     # Halfway down the wall, at X 0.95, the cutter's rim touches at Z -2.
     body = "G21 G90\nG0 Z5\nX{} Y1\nM3 S8000\nG1 Z-2 F100\nG0 Z5\nM30"
 
     def gouge(x):
-        return verify([body.format(x)], [flat], relief, stock, machine).gouge_mm
+        return verify([body.format(x)], [flat], relief, setup).gouge_mm
 
     assert gouge(1.45) < 1e-9
-    assert gouge(1.4496) < 1e-9
-    assert gouge(1.39) == pytest.approx(2.0, abs=0.03)
+    # The crest at X 0.9 is cut away: its whole height, but 0.05 mm into the wall.
+    assert 0.0499 < gouge(1.39) < 0.065
 
 
 def test_nodes_of_the_figure():
@@ -185,11 +189,18 @@ def test_what_the_cutter_cannot_reach_is_not_missed():
     assert missed_patch(relief, -heights, fine, 0.1) > 0.1 * 3 * 3.5
 
 
+def test_large_reliefs_are_judged_on_half_as_fine_a_lattice(monkeypatch):
+    assert judge(TEXT).grid.pitch == pytest.approx(RELIEF.grid.pitch / 4)
+    assert judge(TEXT, refine=1).grid.pitch == pytest.approx(RELIEF.grid.pitch)
+    monkeypatch.setattr("relieffab.gcode.verify.LARGE", RELIEF.mask.size - 1)
+    assert judge(TEXT).grid.pitch == pytest.approx(RELIEF.grid.pitch / 2)
+
+
 def test_bad_use():
     blank = Relief(RELIEF.grid, RELIEF.heights * 0, RELIEF.mask & False, 2.0)
     with pytest.raises(InputError, match="no figure"):
-        verify([TEXT], [BALL], blank, STOCK, MACHINE)
+        verify([TEXT], [BALL], blank, SETUP)
     with pytest.raises(InputError, match="no program"):
-        verify([], [], RELIEF, STOCK, MACHINE)
+        verify([], [], RELIEF, SETUP)
     with pytest.raises(InputError, match="program 1 line 3"):
         judge("G21 G90\nG0 Z5\nG1 X0 Y0\nM30")

@@ -9,7 +9,7 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.relief.model import Relief
-from relieffab.toolpath.envelope import Terrain, tip_heights
+from relieffab.toolpath.envelope import Places, Terrain, tip_heights, tip_surface
 
 COMMON = {"flute_length": 9.0, "stepdown": 1.0, "feed": 800.0, "plunge": 200.0, "rpm": 9000.0}
 CUTTERS = {
@@ -19,6 +19,7 @@ CUTTERS = {
     "vee": Cutter("c", "vee", 2.0, angle=60, tip_diameter=0.2, **COMMON),
     "sharp vee": Cutter("c", "vee", 2.0, angle=90, **COMMON),
     "tapered ball": Cutter("c", "tapered ball", 2.0, angle=20, tip_diameter=0.6, **COMMON),
+    "form": Cutter("c", "form", 2.0, points=((0, 0), (0.2, 0.05), (0.6, 0.3), (1, 1.5)), **COMMON),
 }
 GRID = Grid(9, 11, 0.4, (1.0, 5.0))
 DEPTH = 2.0
@@ -153,6 +154,20 @@ def test_allowance_is_kept_in_every_direction(name):
         dx, dy = 0.999 * allowance * np.cos(angle), 0.999 * allowance * np.sin(angle)
         assert tip_heights(terrain, cutter, 3.1 + dx, 3.4 + dy) <= z + 1e-9
     assert tip_heights(terrain, cutter, 3.1, 3.4) <= z - allowance + 1e-9
+
+
+def test_the_shank_clears_a_wall_that_the_flutes_would_pass():
+    cutter = Cutter("c", "flat", 0.6, shank_diameter=2.0, **{**COMMON, "flute_length": 1.5})
+    places = Places((6.2, 6.13), 0.0, 0.05, 1.0, 1, 40)
+    x, y = (axis.ravel() for axis in places.xy())
+    found = tip_heights(Terrain.of(wall_relief()), cutter, x, y)
+
+    def wall(s):
+        return np.clip(-2.0 * (s - 6.0) / 0.3, -2.0, 0.0)
+
+    assert np.allclose(found, np.maximum(wall(x - 0.3), wall(x - 1.0) - 1.5), atol=1e-9)
+    assert (found == -1.5).sum() > 5
+    assert np.allclose(tip_surface(Terrain.of(wall_relief()), cutter, places)[0], found, atol=1e-9)
 
 
 def test_the_face_goes_on_beyond_the_grid():

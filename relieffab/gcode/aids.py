@@ -1,0 +1,118 @@
+"""Programs that help to set a job up: the panel's outline in the air, and a probe of Z."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from relieffab.errors import InputError
+from relieffab.gcode.header import harmless
+from relieffab.gcode.limits import travel_findings
+from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
+
+FEED = 1500.0  # mm/min, slow enough to watch
+REACH = 25.0  # mm down, within which the plate has to be
+FAST, SLOW = 100.0, 25.0  # mm/min
+BACK, AWAY = 2.0, 10.0  # mm up after the first touch, and at the end
+
+
+def outline_program(setup: Setup) -> str:
+    """Write a program that goes round the stock at the safe height, spindle off.
+
+    It starts and ends above the near left corner: whoever watches sees whether the
+    panel lies where work zero says, and whether clamps are in the way.
+
+    Parameters
+    ----------
+    setup : Setup
+
+    Raises
+    ------
+    InputError
+        If the stock is larger than the machine's travel.
+    """
+    post, stock = setup.post, setup.stock
+    x0, y0, z0 = stock.work_zero
+    high = post.length(setup.machine.safe_height - z0)
+    corners = [(0, 0), (stock.width, 0), (stock.width, stock.height), (0, stock.height), (0, 0)]
+    places = [[post.number(round(mm * post.per_mm)) for mm in (x - x0, y - y0)] for x, y in corners]
+    feed = post.feed(min(FEED, *setup.machine.max_rate[:2]))
+    slow = f" F{feed}" if post.dialect.rapid_feed else ""
+    rise = f" F{post.feed(setup.machine.max_rate[2])}" if post.dialect.rapid_feed else ""
+    lines = [
+        *_head(setup, "the panel's outline in the air, spindle off"),
+        *_modes(setup),
+        "M5",
+        f"G0 Z{high}{rise}",
+        f"G0 X{places[0][0]} Y{places[0][1]}{slow}",
+        *(f"G1 X{x} Y{y} F{feed}" for x, y in places[1:]),
+        post.dialect.end,
+    ]
+    text = "\n".join(lines) + "\n"
+    points = read_program(text, name="outline", dialect=post.dialect).points
+    findings = travel_findings(points, setup.machine)
+    if findings:
+        raise InputError(
+            "the panel does not fit on the machine's table",
+            found="; ".join(findings),
+            hint="a smaller size, or another machine",
+        )
+    return text
+
+
+def probe_program(setup: Setup, plate: float) -> str:
+    """Write a program that finds the stock's face with a touch plate and sets Z by it.
+
+    The cutter has to stand above the plate, which lies on the face, by less than 25 mm.
+    It touches twice, the second time slowly, and rises.
+
+    Parameters
+    ----------
+    setup : Setup
+    plate : float
+        Its thickness, mm.
+    """
+    post, stock = setup.post, setup.stock
+    if not 0 <= plate <= REACH:
+        raise InputError(
+            "the touch plate is not that thick",
+            expected=f"0 to {REACH:g} mm",
+            found=f"{plate:g} mm",
+        )
+    down, again, back, away = (
+        post.number(int(np.rint(mm * post.per_mm))) for mm in (-REACH, -BACK - 1, BACK, AWAY)
+    )
+    here = post.number(int(np.rint((plate - stock.work_zero[2]) * post.per_mm)))
+    touch, store = post.dialect.probe
+    rise = f" F{post.feed(10 * FAST)}" if post.dialect.rapid_feed else ""
+    lines = [
+        *_head(setup, f"sets Z by a touch plate of {plate:g} mm on the stock's face, spindle off"),
+        *_modes(setup),
+        "M5",
+        "G91",
+        f"{touch} Z{down} F{post.feed(FAST)}",
+        f"G0 Z{back}{rise}",
+        f"{touch} Z{again} F{post.feed(SLOW)}",
+        store.format(z=here),
+        f"G0 Z{away}{rise}",
+        "G90",
+        post.dialect.end,
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _head(setup: Setup, what: str) -> Iterator[str]:
+    sign = setup.post.dialect.comments
+    before, after = ("(", ")") if sign == "(" else ("; ", "")
+    x, y, z = setup.stock.work_zero
+    for text in (what, f"work zero: X {x:g} Y {y:g} Z {z:g} mm from the near left corner's face"):
+        yield f"{before}{harmless(text)}{after}"
+
+
+def _modes(setup: Setup) -> list[str]:
+    post = setup.post
+    first, *rest = post.dialect.start or ("",)
+    return [
+        f"{post.units_word} G90 {first}".rstrip(),
+        *(line.format(blend=post.blend()) for line in rest),
+    ]

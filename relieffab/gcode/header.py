@@ -1,0 +1,67 @@
+"""What stands at the head of a program, in comments no controller acts on."""
+
+import textwrap
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+
+from relieffab import __version__
+from relieffab.gcode.estimate import estimate
+from relieffab.gcode.program import Program
+from relieffab.gcode.setup import Setup
+from relieffab.toolpath.path import Toolpath
+
+_WIDTH = 77
+
+
+def comments(
+    paths: Sequence[Toolpath], program: Program, setup: Setup, more: Mapping[str, str]
+) -> Iterator[str]:
+    """Say what a program is, so that a person can check it and make it again."""
+    sign = setup.post.dialect.comments
+    before, after = ("(", ")") if sign == "(" else ("; ", "")
+    for name, value in [*_facts(paths, program, setup).items(), *more.items()]:
+        for part in textwrap.wrap(harmless(f"{name}: {value}"), _WIDTH):
+            yield f"{before}{part}{after}"
+
+
+def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[str, str]:
+    machine, stock = setup.machine, setup.stock
+    facts = {
+        "relieffab": __version__,
+        "program": ", ".join(path.name for path in paths),
+    }
+    for number, path in enumerate(paths, 1):
+        cutter = path.cutter
+        label = "cutter" if len(paths) == 1 else f"cutter T{number}"
+        facts[label] = (
+            f"{cutter.name}, {cutter.shape} {cutter.diameter:g} mm, {path.rpm:g} rpm, "
+            f"at most {setup.limits(cutter).stepdown:.3g} mm a pass"
+        )
+    seconds = estimate(program, machine)
+    low, high = program.bounds
+    x, y, z = stock.work_zero
+    return facts | {
+        "machine": f"{machine.name}, {setup.post.dialect.title}",
+        "material": setup.material.title,
+        "stock": f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm",
+        "work zero": f"X {x:g} Y {y:g} mm from the near left corner, Z {z:g} mm from the face",
+        "bounds, mm": "  ".join(
+            f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
+        ),
+        "time": f"{int(seconds // 60)} min {int(seconds % 60)} s",
+    }
+
+
+def harmless(text: str) -> str:
+    """Bring a comment down to bytes no controller acts on.
+
+    Grbl obeys `!`, `~`, `?` and every byte from 0x80 wherever they stand, and
+    a comment ends at its first closing parenthesis.
+
+    Examples
+    --------
+    >>> harmless("Säge (schnell!)")
+    'Sage schnell'
+    """
+    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+    return "".join(c for c in plain if " " <= c <= "}" and c not in "!?()$%;")

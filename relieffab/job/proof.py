@@ -1,0 +1,234 @@
+"""Proof: programs judged from their files, with all that a person or `send` may check it by."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from relieffab.cutter import Cutter
+from relieffab.errors import FindingsError, InputError
+from relieffab.gcode.read import read_program
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.verify import Verification, verify
+from relieffab.grid import Grid
+from relieffab.job.folder import REPORT
+from relieffab.job.programs import file_hash
+from relieffab.job.report import read_report
+from relieffab.machine import Machine, Material, Use
+from relieffab.picture import deviation_map, png8, predicted_look
+from relieffab.progress import Progress, silent
+from relieffab.relief.model import Relief
+from relieffab.relief.store import read_relief
+from relieffab.stock import Stock
+
+Part = dict[str, Any]
+
+RELIEF = "relief.tiff"
+DEVIATION, LOOK = "deviation.png", "look.png"
+WIDEST = 2048  # pixels of the simulated surface that is lit
+
+
+def judge(
+    relief: Relief, report: Mapping[str, Any], folder: Path, progress: Progress = silent
+) -> Verification:
+    """Judge the programs on disk with the cutters and machine they were made for.
+
+    Raises
+    ------
+    InputError
+        If a program is missing, or the report does not hold what it takes.
+    """
+    try:
+        setup = _setup(report, relief.depth)
+        cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
+        files = [folder / name for name in program_names(report)]
+    except (KeyError, TypeError, ValueError) as fault:
+        raise InputError(
+            "the report does not say what its programs were made for",
+            expected="machine, material, slab, and a cutter for each program",
+            found=repr(fault),
+            where=str(folder / "report.json"),
+            hint="relieffab toolpath writes them again",
+        ) from fault
+    programs = []
+    for path in files:
+        if not path.is_file():
+            raise InputError("a program of the job is missing", where=str(path))
+        text = path.read_text(encoding="latin-1")
+        programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
+    return verify(programs, cutters, relief, setup, progress=progress)
+
+
+def program_names(report: Mapping[str, Any]) -> list[str]:
+    """Name the files of the programs, each once, in their order."""
+    return list(dict.fromkeys(str(part["file"]) for part in report["programs"]))
+
+
+def _setup(report: Mapping[str, Any], depth: float) -> Setup:
+    """Read back what programs were made for."""
+    material = {key: value for key, value in report["material"].items() if key != "notes"}
+    material["use"] = tuple(
+        Use(**{**use, "machines": tuple(use["machines"])}) for use in material["use"]
+    )
+    return Setup(
+        Machine(**{**report["machine"], **_tuples(report["machine"])}),
+        Material(**material),
+        Stock.of(report["slab"]),
+        depth,
+        report["units"],
+    )
+
+
+def _tuples(machine: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
+    return {
+        name: tuple(machine[name]) for name in ("travel", "max_rate", "acceleration", "spindle")
+    }
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What is no longer as the job left it.
+
+    Parameters
+    ----------
+    findings, notes : list of str
+        What must stop a person, and what they should know.
+    """
+
+    findings: list[str]
+    notes: list[str]
+
+
+def changes(report: Mapping[str, Any], folder: Path) -> Changes:
+    """Compare a folder with its report."""
+    listed = {str(part["file"]): part for part in [*report.get("aids", []), *report["programs"]]}
+    findings = [
+        f"{path.name} lies in the folder but was not made by this job, and is not judged"
+        for path in sorted(folder.glob("*.nc"))
+        if path.name not in listed
+    ]
+    notes = [
+        f"{name} was changed after it was written"
+        for name, part in listed.items()
+        if (folder / name).is_file() and file_hash(folder / name) != part.get("sha256")
+    ]
+    if file_hash(folder / RELIEF) != report.get("relief", {}).get("sha256"):
+        notes.append(f"{RELIEF} was changed after it was written")
+    return Changes(findings, notes)
+
+
+def verification_part(verdict: Verification, relief: Relief, more: Sequence[str] = ()) -> Part:
+    """Describe a verdict as report.json does."""
+    findings = [*verdict.findings, *more]
+    inside = verdict.deviation[verdict.figure]
+    low, middle, high = np.percentile(inside, (1, 50, 99))
+    return {
+        "gouge_mm": round(verdict.gouge_mm, 5),
+        "excess_p99_mm": round(verdict.excess_p99_mm, 5),
+        "within_tolerance": round(verdict.within_tolerance, 5),
+        "tolerance_mm": verdict.tolerance_mm,
+        "deviation_mm": {
+            "least": round(float(inside.min()), 5),
+            "p01": round(float(low), 5),
+            "median": round(float(middle), 5),
+            "p99": round(float(high), 5),
+            "most": round(float(inside.max()), 5),
+        },
+        "nodes_per_pixel": round(relief.grid.pitch / verdict.grid.pitch),
+        "air_cutting": round(verdict.air_cutting, 4),
+        "ok": not findings,
+        "findings": findings,
+    }
+
+
+def write_pictures(verdict: Verification, relief: Relief, folder: Path) -> Part:
+    """Write the map of what is left and the predicted look; give their names."""
+    colours = deviation_map(verdict.deviation, verdict.figure, verdict.tolerance_mm)
+    (folder / DEVIATION).write_bytes(png8(colours))
+    look = predicted_look(relief, carved_relief(verdict, relief))
+    (folder / LOOK).write_bytes(png8(look))
+    return {"deviation": DEVIATION, "look": LOOK}
+
+
+def carved_relief(verdict: Verification, relief: Relief) -> Relief:
+    """Take the simulated surface, within the relief's own grid, as a relief."""
+    fine, grid = verdict.grid, relief.grid
+    refine = round(grid.pitch / fine.pitch)
+    step = next(k for k in (1, 2, 4, refine) if grid.cols * refine // k <= WIDEST or k == refine)
+    top, left = (round(float(k)) for k in fine.to_index(*grid.to_xy(0.0, 0.0)))
+    rows, cols = (k * refine for k in grid.shape)
+    heights = verdict.carved[top : top + rows + 1 : step, left : left + cols + 1 : step]
+    per = refine // step
+    return Relief(
+        Grid(grid.rows * per, grid.cols * per, grid.pitch / per, grid.origin),
+        np.clip(heights.astype(float), -relief.depth, 0.0),
+        np.kron(relief.mask, np.ones((per, per), bool)),
+        relief.depth,
+    )
+
+
+def certificate(report: Mapping[str, Any], folder: Path) -> Part:
+    """Name what was proved by its content: programs and relief."""
+    names = program_names(report)
+    return {
+        "programs": {name: file_hash(folder / name) for name in names},
+        "relief": report["relief"].get("sha256"),
+    }
+
+
+def check_certificate(program: Path) -> list[str]:
+    """Ask whether a program that is about to be sent was proved as it stands.
+
+    A program that was changed since is judged anew, from its text.
+
+    Parameters
+    ----------
+    program : Path
+
+    Returns
+    -------
+    list of str
+        What a person should know; nothing where the certificate holds.
+
+    Raises
+    ------
+    FindingsError
+        If it would not carve the relief, or was found not to.
+    InputError
+        If it cannot be read as a program.
+    """
+    folder = program.parent
+    if not (folder / REPORT).is_file():
+        return [f"there is no {REPORT} beside {program.name}: nobody proved it"]
+    report = read_report(folder)
+    proof = report.get("verification") or {}
+    held = proof.get("certificate") or {}
+    if program.name in (aids := {part["file"]: part["sha256"] for part in report.get("aids", [])}):
+        return _check_aid(program, aids[program.name])
+    if program.name not in program_names(report):
+        return [f"{program.name} is none of this job's programs: nobody proved it"]
+    same = held.get("programs", {}).get(program.name) == file_hash(program)
+    if same and held.get("relief") == file_hash(folder / RELIEF) and proof.get("ok") is True:
+        return []
+    verdict = judge(read_relief(folder / RELIEF), report, folder)
+    if not verdict.ok:
+        raise FindingsError(
+            f"{program.name} is not as it was proved, and does not carve the relief; nothing sent",
+            found="\n    ".join(verdict.findings),
+            where=str(program),
+            hint="relieffab toolpath writes the programs again",
+        )
+    return [f"{program.name} is not as it was proved; judged again, it carves the relief"]
+
+
+def _check_aid(program: Path, known: str) -> list[str]:
+    """Refuse a probe or an outline that is not as the job wrote it: neither can be judged."""
+    if file_hash(program) != known:
+        raise FindingsError(
+            f"{program.name} is not as the job wrote it; nothing sent",
+            where=str(program),
+            hint="relieffab toolpath writes it again",
+        )
+    return []

@@ -1,0 +1,42 @@
+"""What a relief will look like when its programs have run, beside what was wanted."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from relieffab.picture.png import smaller
+from relieffab.picture.stone import LIGHT, hillshade
+from relieffab.relief.model import Relief
+
+GAP = 12
+LINE = 26
+
+
+def predicted_look(
+    wanted: Relief, carved: Relief, light: ArrayLike = LIGHT, *, width: int = 800
+) -> NDArray[np.uint8]:
+    """Light the wanted and the simulated surface alike, side by side.
+
+    Parameters
+    ----------
+    wanted, carved : Relief
+        Of one panel; they may differ in resolution.
+    light : (3,) array_like
+        Towards the key light.
+    width : int
+        Most pixels across each picture.
+
+    Returns
+    -------
+    (rows, cols, 3) ndarray of uint8
+    """
+    left, right = (smaller(hillshade(one, light), width) for one in (wanted, carved))
+    size = left.shape[1], left.shape[0]
+    page = Image.new("RGB", (2 * size[0] + 3 * GAP, size[1] + GAP + LINE), "white")
+    draw, letters = ImageDraw.Draw(page), ImageFont.load_default(size=15)
+    for k, (image, word) in enumerate(((left, "wanted"), (right, "as the programs leave it"))):
+        x = GAP + k * (size[0] + GAP)
+        picture = Image.fromarray(image)
+        page.paste(picture if picture.size == size else picture.resize(size), (x, LINE))
+        draw.text((x + size[0] / 2, LINE / 2), word, "black", letters, anchor="mm")
+    return np.asarray(page)
