@@ -9,8 +9,10 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
-from relieffab.cli import comparison, first, machine, stages
+from relieffab.cli import comparison, first, stages
 from relieffab.cli.interrupt import listen
+from relieffab.cli.machines import machines
+from relieffab.cli.send import send
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -32,10 +34,10 @@ for command in (
     stages.toolpath,
     stages.verify,
     comparison.compare,
-    machine.send,
-    machine.machines,
+    send,
 ):
     app.command(command)
+app.command(machines)
 
 
 def run(arguments: Sequence[str]) -> int:

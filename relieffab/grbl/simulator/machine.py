@@ -5,18 +5,24 @@ parsed, a move ends) or to the given time, whichever comes first.  So simulated 
 only what their events cost, and every run of the same bytes at the same times is the same.
 """
 
+import heapq
 import math
 from array import array
+from collections.abc import Callable
 
 from relieffab.grbl.simulator import reports
-from relieffab.grbl.simulator.interpreter import Interpreter, Move
+from relieffab.grbl.simulator.commands import EEPROM_SECONDS
+from relieffab.grbl.simulator.interpreter import Interpreter, Move, Probe
 from relieffab.grbl.simulator.planner import Planner, Point
 from relieffab.grbl.simulator.processor import Processor
 from relieffab.grbl.simulator.realtime import Overrides, act
 from relieffab.grbl.simulator.settings import Settings
 from relieffab.grbl.simulator.wire import Wire
+from relieffab.grbl.simulator.words import Refused
 
 HOMING_SECONDS = 8.0
+SPINDLE_DELAY = 4.0
+"""Seconds the spindle gets after the safety door was closed."""
 _CRITICAL = (1, 2)
 
 
@@ -36,15 +42,19 @@ class SimulatedGrbl:
         Seconds from opening the port to the banner.
     blank : bool
         Start with a blank EEPROM, which prints a page of noise before the banner.
+    plate : float
+        Machine Z of a touch plate that the probe meets, mm; -inf where there is none.
 
     Attributes
     ----------
     now : float
         Simulated seconds since the port was opened.
     state : str
-        Boot, Idle, Run, Hold, Door, Home, Alarm, Check.
+        Boot, Idle, Run, Hold, Jog, Door, Home, Alarm, Check, Sleep.
     spindle : float
         rpm; 0 is off.
+    door_open : bool
+        The safety door's switch.
     """
 
     def __init__(
@@ -57,6 +67,7 @@ class SimulatedGrbl:
         baud: float = 115200.0,
         boot: float = 1.6,
         blank: bool = False,
+        plate: float = -math.inf,
     ) -> None:
         self.settings = Settings(settings)
         self.interpreter = Interpreter(self.settings)
@@ -71,7 +82,14 @@ class SimulatedGrbl:
         self._reports = reports.StatusReports()
         self._processor = Processor(self, 1.0 / line_rate)
         self._booted = boot
+        self._boot_seconds = boot
         self._blank = blank
+        self._plate = plate
+        self._probing = False
+        self._restored = math.inf
+        self._events: list[tuple[float, int, Callable[[], None]]] = []
+        self.door_open = False
+        self.probed = reports.Probed()
         self._dead = self._limited = False
         self.wire.deaf_until = boot
 
@@ -99,9 +117,15 @@ class SimulatedGrbl:
         """Print a line."""
         self.wire.say(text, self.now)
 
+    def at(self, time: float, happen: Callable[[], None]) -> None:
+        """Have something happen to the machine at a time."""
+        heapq.heappush(self._events, (time, len(self._events), happen))
+
     def next_event(self) -> float:
         """When something happens next, as far as the bytes known now decide."""
-        event = min(self.planner.end, self._booted)
+        event = min(self.planner.end, self._booted, self._restored)
+        if self._events:
+            event = min(event, self._events[0][0])
         if self.wire.urgent:
             event = min(event, self.wire.urgent[0][0])
         if self._processor.ready > self.now:
@@ -119,8 +143,12 @@ class SimulatedGrbl:
             return
         self.now = max(self.now, event)
         self._deliver()
+        while self._events and self._events[0][0] <= self.now:
+            heapq.heappop(self._events)[2]()
         if self._booted <= self.now:
             self._boot()
+        if self._restored <= self.now:
+            self._go_on()
         if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
             _, byte = self.wire.urgent.popleft()
             if self.state != "Boot":
@@ -149,30 +177,111 @@ class SimulatedGrbl:
                 room=(self.planner.size - len(self.planner.blocks), self.wire.free),
                 pace=(speed * 60.0, self.spindle),
                 overrides=self.overrides.values,
+                accessories=self._accessories(),
                 mask=int(self.settings[10]),
+                inches=bool(self.settings[13]),
             )
         )
 
     def hold(self, state: str = "Hold") -> None:
         """Brake to a stop and stay there until resumed."""
-        if self.state not in ("Idle", "Run"):
+        if state == "Door":
+            self.say("[MSG:Check Door]")
+        if self.state == "Jog":
+            self.cancel_jog()
+            return
+        if self.state not in ("Idle", "Run") and not (state == "Door" and self.state == "Hold"):
             return
         self.state = state
+        self._restored = math.inf
         self.planner.hold(self.now)
         if state == "Door":
             self.spindle = 0.0
 
     def resume(self) -> None:
         """Go on after a hold, a pause or a closed door."""
-        if self.state in ("Hold", "Door") and not self.planner.running:
-            if self.state == "Door" and self.interpreter.spindle != 5:
-                self.spindle = self.interpreter.speed
-            self.planner.resume(self.now)
-            self.state = "Run" if self.planner.running else "Idle"
-            self._work()
+        if self.state not in ("Hold", "Door") or self.planner.running or self.door_open:
+            return
+        turning = self.interpreter.spindle != 5
+        if turning and not self.spindle:
+            self._restored = self.now + SPINDLE_DELAY
+        else:
+            self._go_on()
+
+    def open_door(self, seconds: float) -> None:
+        """Open the safety door, and close it after so many seconds."""
+        self.door_open = True
+        self.hold("Door")
+        self.at(self.now + seconds, self._close_door)
+
+    def _close_door(self) -> None:
+        self.door_open = False
+
+    def _go_on(self) -> None:
+        self._restored = math.inf
+        if self.interpreter.spindle != 5:
+            self.spindle = self.interpreter.speed
+        self.planner.resume(self.now)
+        self.state = "Run" if self.planner.running else "Idle"
+        self._work()
+
+    def toggle_spindle(self) -> None:
+        """Switch the spindle off or on while held."""
+        if self.state == "Hold" and not self.planner.running and self.interpreter.spindle != 5:
+            self.spindle = 0.0 if self.spindle else self.interpreter.speed
+
+    def toggle_coolant(self) -> None:
+        """Switch the flood coolant."""
+        if self.state in ("Idle", "Run", "Hold"):
+            self.interpreter.coolant = 9 if self.interpreter.coolant == 8 else 8
+
+    def jog(self, move: Move) -> None:
+        """Set off on a jog, or refuse it."""
+        if self.outside(move):
+            raise Refused(15)
+        self.interpreter.coordinates.position = list(move.target)
+        self.planner.add(move.target, move.feed, self.now)
+        self.state = "Jog"
+        self.planner.start(self.now)
+
+    def cancel_jog(self) -> None:
+        """Brake and forget the jog."""
+        if self.state == "Jog":
+            self.planner.hold(self.now)
+
+    def sleep(self) -> None:
+        """Switch everything off until a reset."""
+        self.say("[MSG:Sleeping]")
+        self.state, self.spindle = "Sleep", 0.0
+
+    def restore(self, what: str) -> None:
+        """Forget what is stored: $ settings, # offsets, * all."""
+        self.say("[MSG:Restoring defaults]")
+        if what in "$*":
+            self.settings.restore()
+        if what in "#*":
+            self.interpreter.coordinates.forget()
+        self.deafen(EEPROM_SECONDS)
+        self.at(self.now + EEPROM_SECONDS, self.reset)
+
+    def hit_limit(self) -> None:
+        """Run into a limit switch: stop at once, position lost."""
+        self._alarm(1)
+
+    def reboot(self) -> None:
+        """Lose power for a moment, or be reset by the port: all but the EEPROM is forgotten."""
+        self._restart_quietly()
+        self.planner.set_position((0.0, 0.0, 0.0))
+        self.interpreter.coordinates.position = [0.0, 0.0, 0.0]
+        self.probed = reports.Probed()
+        self.state = "Boot"
+        self._booted = self.now + self._boot_seconds
+        self.wire.deaf_until = self._booted
 
     def reset(self) -> None:
         """Ctrl-X: stop at once; in motion that loses steps and locks the machine."""
+        if self.state == "Sleep":
+            self.state = "Alarm"
         moving = self.planner.running or self.state == "Home"
         if moving and self.state != "Alarm":
             self._alarm(6 if self.state == "Home" else 3)
@@ -212,6 +321,41 @@ class SimulatedGrbl:
             -travel <= value <= 0.0
             for travel, value in zip(self.settings.travel, move.target, strict=True)
         )
+
+    def probe(self, wanted: Probe) -> bool:
+        """Begin a probing move, or go on with it; True once it is over."""
+        if self._probing:
+            self._touched(wanted)
+            return True
+        start = self.planner.position
+        if (start[2] <= self._plate) is not wanted.away:
+            self._alarm(4)
+            return True
+        self._probing = True
+        self.planner.add(self._contact(start, wanted.target), wanted.feed, self.now)
+        self.start()
+        return not self.planner.blocks
+
+    def _contact(self, start: Point, target: Point) -> Point:
+        """Where on the way the plate's height is met; the target where it is not."""
+        fall = start[2] - target[2]
+        share = (start[2] - self._plate) / fall if fall else math.inf
+        if not 0.0 <= share <= 1.0:
+            return target
+        x, y, z = (a + share * (b - a) for a, b in zip(start, target, strict=True))
+        return x, y, z
+
+    def _touched(self, wanted: Probe) -> None:
+        self._probing = False
+        place = self.planner.position
+        self.interpreter.coordinates.position = list(place)
+        met = math.dist(place, wanted.target) > 1.0 / min(self.settings.steps)
+        if met:
+            self.probed = reports.Probed(place, touched=True)
+        elif wanted.must:
+            self._alarm(5)
+            return
+        self.say(self.probed.line(inches=bool(self.settings[13])))
 
     def limit_reached(self) -> None:
         """Brake, then lock up and be silent until reset."""
@@ -254,7 +398,17 @@ class SimulatedGrbl:
             self.say(">:error:7")
             self.say(">:error:7")
 
+    def _accessories(self) -> str:
+        turning = {3: "S", 4: "C"}.get(self.interpreter.spindle, "") if self.spindle else ""
+        return turning + ("F" if self.interpreter.coolant == 8 else "")
+
     def _restart(self) -> None:
+        self._restart_quietly()
+        self.state = "Alarm" if self.state == "Alarm" else "Idle"
+        self._greet()
+
+    def _restart_quietly(self) -> None:
+        self._restored, self._probing = math.inf, False
         self._dead = self._limited = False
         position = self.planner.motion(self.now)[0]
         if self.planner.running or self.planner.holding:
@@ -267,8 +421,6 @@ class SimulatedGrbl:
         self.spindle = 0.0
         self.wire.clear()
         self._processor.clear()
-        self.state = "Alarm" if self.state == "Alarm" else "Idle"
-        self._greet()
 
     def _greet(self) -> None:
         self.say("")
@@ -288,6 +440,10 @@ class SimulatedGrbl:
             self._alarm(2)
         elif self.state == "Run" and not self.planner.running:
             self.state = "Idle"
+        elif self.state == "Jog" and not self.planner.running:
+            self.planner.set_position(self.planner.motion(self.now)[0])
+            self.interpreter.coordinates.position = list(self.planner.position)
+            self.state = "Idle"
 
     def _alarm(self, code: int) -> None:
         """Lock up; after a limit the controller is silent until it is reset."""
@@ -301,6 +457,15 @@ class SimulatedGrbl:
             self._dead = True
 
     def _state_name(self) -> str:
-        if self.state in ("Hold", "Door"):
-            return f"{self.state}:{1 if self.planner.running else 0}"
+        if self.state == "Hold":
+            return f"Hold:{1 if self.planner.running else 0}"
+        if self.state == "Door":
+            return f"Door:{self._door()}"
         return self.state
+
+    def _door(self) -> int:
+        if self._restored < math.inf:
+            return 3
+        if self.planner.running:
+            return 2
+        return 1 if self.door_open else 0

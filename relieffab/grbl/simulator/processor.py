@@ -6,7 +6,7 @@ from typing import Protocol
 
 from relieffab.grbl.simulator.commands import EEPROM_SECONDS, run_command
 from relieffab.grbl.simulator.commands import Host as CommandHost
-from relieffab.grbl.simulator.interpreter import Action, Move, Wait
+from relieffab.grbl.simulator.interpreter import Action, Move, Probe, Wait
 from relieffab.grbl.simulator.words import Refused
 
 LINE_LENGTH = 79
@@ -33,6 +33,9 @@ class Host(CommandHost, Protocol):
 
     def offset_changed(self) -> None:
         """Have the next status report name the offset."""
+
+    def probe(self, wanted: Probe) -> bool:
+        """Begin a probing move, or go on with it; True once it is over."""
 
 
 class Processor:
@@ -135,6 +138,11 @@ class Processor:
         if machine.planner.blocks:
             machine.start()
             return False
+        if isinstance(action, Probe):
+            over = machine.probe(action)
+            if over:
+                self._actions.popleft()
+            return over
         if action.kind == "pause":
             return self._pause()
         self._actions.popleft()

@@ -1,5 +1,6 @@
 """The bytes that act wherever they arrive, in a comment or in the middle of a line."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -44,6 +45,15 @@ class Host(Protocol):
     def reset(self) -> None:
         """Start anew."""
 
+    def cancel_jog(self) -> None:
+        """Brake and forget the jog."""
+
+    def toggle_spindle(self) -> None:
+        """Switch the spindle off or on while held."""
+
+    def toggle_coolant(self) -> None:
+        """Switch the flood coolant."""
+
 
 def act(machine: Host, byte: int) -> None:
     """Do what `byte` commands; those not defined are dropped."""
@@ -57,8 +67,17 @@ def act(machine: Host, byte: int) -> None:
         machine.resume()
     elif byte == 0x84:
         machine.hold("Door")
+    elif byte in _TOGGLES:
+        _TOGGLES[byte](machine)
     else:
         _override(machine, byte)
+
+
+_TOGGLES: dict[int, Callable[[Host], None]] = {
+    0x85: lambda machine: machine.cancel_jog(),
+    0x9E: lambda machine: machine.toggle_spindle(),
+    0xA0: lambda machine: machine.toggle_coolant(),
+}
 
 
 def _override(machine: Host, byte: int) -> None:
