@@ -124,6 +124,12 @@ class Controller:
         return x, y, z
 
     @property
+    def resolution(self) -> float:
+        """Longest step of an axis, mm ($100-$102); 0 where not reported."""
+        steps = self._axes(100)
+        return 1.0 / min(steps) if steps else 0.0
+
+    @property
     def limits(self) -> Limits:
         """What bounds its speed."""
         usual = Limits()

@@ -13,8 +13,10 @@ from relieffab.grbl.messages import Point, Status
 from relieffab.grbl.program import Line
 from relieffab.grbl.tracker import Motion, Place
 
-TOLERANCE = 0.1
-"""mm off the program's way that rounding to steps and chords of arcs explain."""
+TOLERANCE = 0.04
+"""mm off the program's way that the chords of arcs and rounded reports explain."""
+STEPS = 2
+"""Steps of an axis that the machine may be off besides."""
 SAME = 0.002
 """mm by which a later line must be nearer to be preferred."""
 DOUBTED = 4
@@ -38,6 +40,8 @@ class Course:
         Moves the planner holds.
     offset : tuple of 3 float
         Work zero in machine coordinates, mm; status reports update it.
+    resolution : float
+        Longest step of an axis, mm.
 
     Attributes
     ----------
@@ -51,7 +55,8 @@ class Course:
         False where the program does what cannot be followed.
     """
 
-    def __init__(self, blocks: int, offset: Point) -> None:
+    def __init__(self, blocks: int, offset: Point, resolution: float = 0.0) -> None:
+        self._tolerance = TOLERANCE + STEPS * resolution
         self.cut_mm = self.off_mm = 0.0
         self.reached: Line | None = None
         self.known = True
@@ -62,6 +67,11 @@ class Course:
         self._cut = 0.0
         self._seen = False
         self._earlier: deque[Line | None] = deque(maxlen=DOUBTED)
+
+    @property
+    def astray(self) -> bool:
+        """True where the last report was off the program's way."""
+        return self.off_mm > self._tolerance
 
     def begin(self, cut_mm: float) -> None:
         """Start behind so much of the program."""
@@ -127,7 +137,7 @@ class Course:
         if found is None:
             return
         self.off_mm = best
-        if best <= TOLERANCE:
+        if best <= self._tolerance:
             self._seen = True
             self._earlier.append(self.reached)
             self._see(found, covered)

@@ -3,8 +3,8 @@
 Opening the port resets most boards; what is sent before their banner vanishes, and what
 they print before it (a settings dump, `error:7`) acknowledges nothing.  Boards that do not
 reset on opening are asked for their state and left as they are: a reset would forget G92.
-Every question is asked until two answers in a row agree, so that a byte altered on the line
-neither enlarges the buffer nor moves work zero.
+Every question is asked until two answers agree, so that a byte altered on the line neither
+enlarges the buffer nor moves work zero.
 """
 
 from relieffab.grbl.codes import error_meaning
@@ -13,8 +13,10 @@ from relieffab.grbl.messages import Acknowledgement, Alarm, Banner, Message, Not
 from relieffab.grbl.stage import STATUS, Failure, Fault, Patience
 
 QUESTIONS = (b"$I\n", b"$$\n", b"$#\n", b"$G\n")
-TRIES = 6
-"""Answers to one question that may differ, fail or stay away before it is given up."""
+TRIES = 8
+"""Answers to one question that may differ or fail before it is given up."""
+GIVEN_UP = 3
+"""Silences."""
 _NEEDED = {b"$I\n": "OPT", b"$#\n": "G54", b"$G\n": "GC"}
 _FEWEST_SETTINGS = 20
 
@@ -40,7 +42,7 @@ class Greeting:
         self._asked = b""
         self._next = self._tries = 0
         self._heard: list[Setting | Note] = []
-        self._before: list[Setting | Note] | None = None
+        self._before: list[list[Setting | Note]] = []
         self._out = b""
 
     def take(self, message: Message, now: float) -> None:
@@ -71,7 +73,7 @@ class Greeting:
     def _begin(self, version: str, now: float) -> None:
         self.controller = Controller(version)
         self._next = self._tries = 0
-        self._before = None
+        self._before = []
         self._ask(now)
 
     def _ask(self, now: float) -> None:
@@ -83,12 +85,12 @@ class Greeting:
     def _answered(self, message: Acknowledgement, now: float) -> None:
         """Believe an answer that is whole and was heard twice."""
         heard, controller = self._heard, self.controller
-        if message.code == 0 and controller and self._whole(heard) and heard == self._before:
+        if message.code == 0 and controller and self._whole(heard) and heard in self._before:
             for part in heard:
                 controller.learn(part)
-            self._next, self._tries, self._before = self._next + 1, 0, None
+            self._next, self._tries, self._before = self._next + 1, 0, []
         else:
-            self._before = heard if message.code == 0 else None
+            self._before.append(heard)
             self._tries += 1
             if self._tries >= TRIES:
                 self._give_up(message)
@@ -150,10 +152,9 @@ class Greeting:
 
     def _overdue(self, now: float) -> None:
         self._tries += 1
-        if self._tries < TRIES / 2:
+        if self._tries < GIVEN_UP:
             if self.controller is None:
                 self._next = len(QUESTIONS)
-            self._before = None
             self._ask(now)
         elif self.controller is None:
             self._fail(

@@ -279,7 +279,7 @@ class Session:
         controller, main = self.controller, program is self._job.program
         if controller is None or self._status is None:
             raise RuntimeError("the machine was not asked")
-        course = Course(controller.blocks, controller.work_zero)
+        course = Course(controller.blocks, controller.work_zero, controller.resolution)
         feed = Feed(program, course.work_position(self._status) or (None, None, None), first)
         self._stage = Streaming(
             feed, course, controller.buffer, self._patience, now,

@@ -34,7 +34,7 @@ class Motion(NamedTuple):
     ----------
     start : tuple
     points : tuple of tuple
-        Ends of its straight pieces; arcs are cut every 2 degrees.
+        Ends of its straight pieces; arcs are cut every degree.
     length : float
         mm, over the axes that are known.
     feed : float
@@ -203,7 +203,7 @@ class Tracker:
                 high[axis] = value
 
     def _arc(self, start: Place, end: Place, centre: dict[str, float]) -> Iterator[Place]:
-        """Points along an arc, 2 degrees apart at most, the end point last."""
+        """Points along an arc, a degree apart at most, the end point last."""
         u, v, w = _PLANES[self.modal.plane]
         scale = self.modal.scale
         a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
@@ -219,7 +219,7 @@ class Tracker:
         turn = -1.0 if clockwise else 1.0
         sweep = turn * (math.atan2(b[v] - cv, b[u] - cu) - begin) % math.tau
         sweep = turn * (sweep if sweep > FULL_CIRCLE_BELOW else math.tau)
-        steps = max(1, math.ceil(abs(sweep) / math.radians(2)))
+        steps = max(1, math.ceil(abs(sweep) / math.radians(1)))
         for step in range(1, steps):
             angle = begin + sweep * step / steps
             point = [0.0, 0.0, 0.0]

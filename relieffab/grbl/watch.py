@@ -1,7 +1,7 @@
 """What status reports give away: lost bytes, a wrong way, a stall, a hold nobody ends."""
 
 from relieffab.grbl.codes import STATES
-from relieffab.grbl.course import TOLERANCE, Course
+from relieffab.grbl.course import Course
 from relieffab.grbl.messages import Status
 from relieffab.grbl.stage import HOLD, RESUME, Failure, Fault, Patience
 from relieffab.grbl.window import Window
@@ -70,7 +70,7 @@ class Watch:
 
     def strayed(self) -> Failure | None:
         """Say whether the machine ended where the program does not."""
-        return self._strayed() if self._course.off_mm > TOLERANCE else None
+        return self._strayed() if self._course.astray else None
 
     def _state(self, status: Status) -> Failure | None:
         if status.state == "Alarm":
@@ -101,7 +101,7 @@ class Watch:
         )
 
     def _wrong_way(self) -> Failure | None:
-        self._off = self._off + 1 if self._course.off_mm > TOLERANCE else 0
+        self._off = self._off + 1 if self._course.astray else 0
         return self._strayed() if self._off >= TWICE else None
 
     def _strayed(self) -> Failure:

@@ -140,11 +140,12 @@ class Serial(io.RawIOBase):
         """Send bytes."""
         self._catch_up()
         self._unplug()
-        self.machine.write(self._out.spoil(bytes(data)))
+        self.machine.write(self._out.spoil(bytes(data), self.machine.now))
         return len(data)
 
     def _heard(self, data: bytes) -> bytes:
-        return b"" if self.machine.now >= self._faults.mute_at else self._in.spoil(data)
+        now = self.machine.now
+        return b"" if now >= self._faults.mute_at else self._in.spoil(data, now)
 
     def reset_output_buffer(self) -> None:
         """Nothing is kept back."""

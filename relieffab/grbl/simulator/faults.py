@@ -25,6 +25,8 @@ class Faults:
     ----------
     flip, drop : float
         Chance of a byte to have one bit turned over, or to be lost.
+    noise_at : float
+        Seconds after the port was opened from which bytes are spoilt.
     seed : int
         Of both.
     unplug_at, reboot_at, limit_at, door_at, hold_at, mute_at, stray_at : float
@@ -35,6 +37,7 @@ class Faults:
 
     flip: float = 0.0
     drop: float = 0.0
+    noise_at: float = 0.0
     seed: int = 0
     unplug_at: float = math.inf
     reboot_at: float = math.inf
@@ -74,12 +77,12 @@ class Noise:
     def __init__(self, faults: Faults) -> None:
         self._random = random.Random(faults.seed)
         self._flip, self._drop = faults.flip, faults.drop
-        self._silent = not (faults.flip or faults.drop)
+        self._begin = faults.noise_at if faults.flip or faults.drop else math.inf
         self.hits = 0
 
-    def spoil(self, data: bytes) -> bytes:
+    def spoil(self, data: bytes, now: float) -> bytes:
         """Let bytes pass."""
-        if self._silent:
+        if now < self._begin:
             return data
         out = bytearray()
         for byte in data:

@@ -411,7 +411,7 @@ class SimulatedGrbl:
         self._restored, self._probing = math.inf, False
         self._dead = self._limited = False
         position = self.planner.motion(self.now)[0]
-        if self.planner.running or self.planner.holding:
+        if self.planner.running or (self.planner.holding and self.planner.blocks):
             self._path.extend(position)
         self.planner.set_position(position)
         self.interpreter.reset()
