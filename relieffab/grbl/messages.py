@@ -123,6 +123,7 @@ Message = Acknowledgement | Alarm | Banner | Setting | Note | Status | Other
 OK = Acknowledgement(0)
 _BANNER = re.compile(r"(?:Grbl|GrblHAL) (\S+) \[")
 STATES = {"Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep", "Tool"}
+_NUMBERED = {"Hold", "Door"}
 _POSITIONS = {"MPos", "WPos"}
 _PLAIN_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
@@ -177,7 +178,8 @@ def _status(line: str) -> Message:
     head, *fields = line[1:-1].split("|")
     state, _, substate = head.partition(":")
     values = dict(field.partition(":")[::2] for field in fields)
-    if not line.endswith(">") or state not in STATES or not (_POSITIONS & values.keys()):
+    whole = line.endswith(">") and state in STATES and _POSITIONS & values.keys()
+    if not whole or (state in _NUMBERED and not substate):
         return Other(line)
     try:
         feed, speed = _numbers(values.get("FS", values.get("F", "0") + ",0"), 2)

@@ -19,7 +19,8 @@ from relieffab.grbl.tracker import Motion, Tracker
 
 IN_MEMORY = 1 << 22
 """Bytes up to which a program needs no file."""
-BLOCK = 1 << 16
+BLOCK = 1 << 13
+"""Bytes, or pieces, read at once."""
 PIECE = struct.Struct("<Lffff")
 """One straight piece of the way: index of its line, dx, dy, dz (mm), mm/min (inf: rapid).
 

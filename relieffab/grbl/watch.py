@@ -131,7 +131,7 @@ class Watch:
 
     def _held(self, status: Status, now: float) -> Failure | None:
         """Do not wait for ever where nobody can end a hold."""
-        if not status.held or self._attended:
+        if status.state not in ("Hold", "Door", "Tool") or self._attended:
             self._held_since = None
             return None
         if self._held_since is None:
@@ -141,6 +141,6 @@ class Watch:
         return Failure(
             Fault.HELD,
             "the machine was held, and nobody let it go on",
-            found=STATES[status.state, status.substate],
+            found=STATES.get((status.state, status.substate), status.state),
             hint="see what held it; noise on the line can, too",
         )

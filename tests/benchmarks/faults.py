@@ -133,7 +133,7 @@ def cut(outcome: Outcome) -> int:
 
 def between(a: tuple, b: tuple, point: tuple) -> bool:
     """Whether a point lies on the way from a to b, as where a machine was stopped."""
-    return math.dist(a, point) + math.dist(point, b) < math.dist(a, b) + NEAR
+    return math.dist(a, point) + math.dist(point, b) < math.dist(a, b) + 3 * NEAR
 
 
 def resume(outcome: Outcome, port: object, program: object) -> None:
