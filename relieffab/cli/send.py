@@ -4,7 +4,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from relieffab.grbl.program import Program
     from relieffab.grbl.sender import SendReport
     from relieffab.grbl.view import View
-
-Flag = Parameter(negative="")
 
 
 def send(
@@ -46,6 +44,7 @@ def send(
     probe: Annotated[
         str | None, Parameter(help="only set Z by a touch plate this thick, below the tool")
     ] = None,
+    home: Annotated[bool, Parameter(negative="", help="home the machine first ($H)")] = False,
     resume: Annotated[
         bool, Parameter(negative="", help="go on where this program was interrupted")
     ] = False,
@@ -78,6 +77,7 @@ def send(
         whole, log, check=check, trace=trace, probe=probe,
         resume=(from_line, _seconds(from_time), zero_set) if asked[3] else None,
     )  # fmt: skip
+    job = replace(job, home=home)
     report = _run(job, port, baud, kept, ask=not yes)
     return _tell(report, as_json=as_json, check=check)
 
@@ -196,6 +196,8 @@ def _rest() -> None:
 
 def _intentions(job: "Job", plan: "Plan") -> Iterator[str]:
     program = job.program
+    if job.home:
+        yield "home     the machine runs to its switches first"
     for note in plan.notes:
         yield f"note: {note}"
     ranges = "  ".join(

@@ -32,6 +32,8 @@ class Controller:
         G54...G59, G28, G30, G92, TLO -> position, in the units the machine reports.
     modal : str
         The G-codes in force.
+    hal : bool
+        True for grblHAL, which knows more codes.
     options : str
         Letters of the build options ([OPT:]).
     buffer, blocks : int
@@ -42,6 +44,7 @@ class Controller:
     settings: dict[int, float] = field(default_factory=dict)
     offsets: dict[str, Point] = field(default_factory=dict)
     modal: str = ""
+    hal: bool = False
     options: str = ""
     buffer: int = RECEIVE_BUFFER
     blocks: int = 15
@@ -52,6 +55,8 @@ class Controller:
             self.settings[message.number] = message.value
         elif message.tag == "VER":
             self.version = self.version or message.text.partition(".2")[0]
+        elif message.tag in ("NEWOPT", "FIRMWARE"):
+            self.hal = True
         elif message.tag == "OPT":
             self.options, *sizes = message.text.split(",")
             if len(sizes) >= 2 and all(size.isdigit() for size in sizes[:2]):

@@ -61,7 +61,7 @@ class Course:
         self.reached: Line | None = None
         self.known = True
         self._depth = blocks + SEGMENTS
-        self._offset = offset
+        self._offset = self._heard = offset
         self._stretches: deque[_Stretch] = deque()
         self._acknowledged = 0
         self._cut = 0.0
@@ -107,8 +107,10 @@ class Course:
 
     def work_position(self, status: Status) -> Point | None:
         """Give the reported position in work coordinates, mm."""
-        if status.offset is not None:
-            self._offset = status.offset
+        if status.offset is not None:  # believed once it was heard twice
+            if status.offset == self._heard:
+                self._offset = status.offset
+            self._heard = status.offset
         if status.work is not None:
             return status.work
         if status.machine is None:

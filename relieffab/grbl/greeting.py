@@ -24,6 +24,13 @@ _FEWEST_SETTINGS = 20
 class Greeting:
     """Wait for the banner, ask the questions one by one, make sure of Idle.
 
+    Parameters
+    ----------
+    patience : Patience
+    now : float
+    locked : bool
+        A machine that waits to be homed will do.
+
     Attributes
     ----------
     controller : Controller or None
@@ -32,12 +39,13 @@ class Greeting:
         The report that said Idle.
     """
 
-    def __init__(self, patience: Patience, now: float) -> None:
+    def __init__(self, patience: Patience, now: float, *, locked: bool = False) -> None:
         self.controller: Controller | None = None
         self.status: Status | None = None
         self.failure: Failure | None = None
         self.over = False
         self._patience = patience
+        self._locked_will_do = locked
         self._deadline = now + patience.banner
         self._asked = b""
         self._next = self._tries = 0
@@ -48,8 +56,8 @@ class Greeting:
     def take(self, message: Message, now: float) -> None:
         """Take in one message."""
         if isinstance(message, Banner):
-            self._begin(message.version, now)
-        elif isinstance(message, Alarm):
+            self._begin(Controller(message.version, hal=message.hal), now)
+        elif isinstance(message, Alarm) and not self._locked_will_do:
             self._locked(f"ALARM:{message.code}")
         elif self.controller is None:
             if isinstance(message, Status) and self._asked == STATUS:
@@ -70,8 +78,8 @@ class Greeting:
         out, self._out = self._out, b""
         return out
 
-    def _begin(self, version: str, now: float) -> None:
-        self.controller = Controller(version)
+    def _begin(self, controller: Controller, now: float) -> None:
+        self.controller = controller
         self._next = self._tries = 0
         self._before = []
         self._ask(now)
@@ -120,7 +128,7 @@ class Greeting:
             )
 
     def _judge(self, status: Status) -> None:
-        if status.state == "Idle":
+        if status.state == "Idle" or (status.state == "Alarm" and self._locked_will_do):
             self.status, self.over = status, True
         elif status.state == "Alarm":
             self._locked("Alarm")
@@ -132,7 +140,7 @@ class Greeting:
             Fault.NOT_READY,
             "the machine is locked by an alarm",
             found=found,
-            hint="home it ($H), or unlock it ($X) if its position is known to be right",
+            hint="send again with --home, or unlock it ($X) if its position is known to be right",
         )
 
     def _busy(self, status: Status) -> None:
@@ -146,7 +154,7 @@ class Greeting:
     def _unsolicited(self, status: Status, now: float) -> None:
         """Go on with a board that gave no banner, unless it is at work."""
         if status.state in ("Idle", "Alarm"):
-            self._begin("", now)
+            self._begin(Controller(), now)
         else:
             self._busy(status)
 

@@ -7,7 +7,7 @@ from relieffab.grbl.messages import Point, Status
 from relieffab.grbl.pace import Timetable
 from relieffab.grbl.program import Program, commands
 from relieffab.grbl.record import Record
-from relieffab.grbl.resume import Entry, approach, entry, zero_lost
+from relieffab.grbl.resume import Entry, entry, zero_lost
 from relieffab.grbl.review import review
 from relieffab.grbl.stage import Failure, Fault
 
@@ -47,12 +47,15 @@ class Job:
         Only let the machine read it ($C); nothing moves.
     attended : bool
         Somebody at the keyboard can end a hold.
+    home : bool
+        Home the machine first ($H).
     resume : Resume or None
     """
 
     program: Program
     check: bool = False
     attended: bool = False
+    home: bool = False
     resume: Resume | None = None
 
 
@@ -63,7 +66,7 @@ class Plan:
     Parameters
     ----------
     setup : tuple of Program
-        What goes before the program.
+        What goes before the program, and before the approach to `entry`.
     first, number : int
         The program's first line that is sent: its index, its line in the source.
     table : Timetable
@@ -85,21 +88,21 @@ class Plan:
 
 
 def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
-    """Decide what to send to a machine that stands idle, or why nothing may be sent."""
+    """Decide what to send to a machine that stands still, or why nothing may be sent."""
+    setup = _setup(job, controller)
     found = review(job.program, controller)
-    if found.refusals:
+    if found.refusals and not job.check:
         return Failure(
             Fault.MISFIT,
             "the program and the machine do not fit",
             found="; ".join(found.refusals),
-            hint="move work zero, turn the job, or change the setting named",
+            hint="move work zero, turn the job, or change what is named",
         )
     table = Timetable(job.program, controller.limits)
     position, machine = _places(controller, status)
     point: Entry | None = None
-    setup: list[Program] = []
     if job.resume is not None:
-        lost = zero_lost(job.resume.record, machine, controller.work_zero)
+        lost = zero_lost(job.resume.record, machine, controller.work_zero, homed=job.home)
         if lost and not job.resume.zero_set:
             return Failure(
                 Fault.MISFIT,
@@ -108,15 +111,24 @@ def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
                 hint="set work zero again, then say so with --zero-set",
             )
         point = _entry(job.program, job.resume, table)
-        if position is None:
-            return Failure(Fault.NOT_READY, "the machine reports no position", hint="see $10")
-        setup.append(commands(*approach(point, position[2])))
-    elif not set(_EXPECTED) <= set(controller.modal.split()):
-        setup.append(commands("".join(_EXPECTED)))
-    if job.check:
-        setup = [commands("$C")]
     first, number = (point.index, point.number) if point else (0, 1)
-    return Plan(tuple(setup), first, number, table, found.notes, point, position)
+    notes = (*found.refusals, *found.notes)
+    return Plan(tuple(setup), first, number, table, notes, point, position)
+
+
+def _setup(job: Job, controller: Controller) -> list[Program]:
+    """Bring the machine to the state that a program may expect, that of a reset."""
+    setup = [commands("$H")] if job.home else []
+    if job.check:
+        return [commands("$C")]
+    wrong = not set(_EXPECTED) <= set(controller.modal.split())
+    other = controller.system
+    if other != "G54" and "G54" in job.program.codes:
+        controller.modal = controller.modal.replace(other, "G54")
+        wrong = True
+    if wrong:
+        setup.append(commands("".join(_EXPECTED) + controller.system))
+    return setup
 
 
 def _entry(program: Program, resume: Resume, table: Timetable) -> Entry:

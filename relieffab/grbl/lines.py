@@ -83,6 +83,11 @@ def stores(line: str) -> bool:
     return line.startswith("$") or ("G" in line and _STORES.search(line) is not None)
 
 
+def homes(line: str) -> bool:
+    """Say whether the machine homes on this line; it answers nothing meanwhile."""
+    return line == "$H"
+
+
 def pauses(line: str) -> bool:
     """Say whether the line waits for a person (M0)."""
     return "M0" in line and _PAUSE.search(line) is not None

@@ -35,6 +35,7 @@ class Banner:
     """The greeting after every start or reset."""
 
     version: str
+    hal: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +122,7 @@ class Other:
 Message = Acknowledgement | Alarm | Banner | Setting | Note | Status | Other
 
 OK = Acknowledgement(0)
-_BANNER = re.compile(r"(?:Grbl|GrblHAL) (\S+) \[")
+_BANNER = re.compile(r"Grbl(HAL)? (\S+) \[", re.IGNORECASE)
 STATES = {"Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep", "Tool"}
 _NUMBERED = {"Hold", "Door"}
 _POSITIONS = {"MPos", "WPos"}
@@ -170,7 +171,7 @@ def parse(line: str) -> Message:
         if match := pattern.match(line):
             return make(match)
     banner = _BANNER.search(line)
-    return Banner(banner[1]) if banner else Other(line)
+    return Banner(banner[2], hal=banner[1] is not None) if banner else Other(line)
 
 
 def _status(line: str) -> Message:

@@ -82,6 +82,8 @@ class Program:
         Slowest feed of a descending cut, mm/min; inf where there is none.
     speed : float
         Highest S, rpm.
+    codes : dict
+        G and M words it uses (plain G0 and G1 may be left out) -> first line of the source.
     digest : str
         SHA-256 of the clean lines, in hexadecimal: comments do not count.
     """
@@ -89,6 +91,7 @@ class Program:
     def __init__(self) -> None:
         self.cut_mm = self.dwell_s = 0.0
         self.pauses: list[int] = []
+        self.codes: dict[str, int] = {}
         self._count = 0
         self._text: IO[bytes] = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
         self._pieces: IO[bytes] = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
@@ -180,6 +183,8 @@ def prepare(source: str | Iterable[str]) -> Program:
         if lines.pauses(line):
             program.pauses.append(number)
         program._append(number, line, tracker.follow(line))
+        if len(tracker.codes) > len(program.codes):
+            program.codes |= dict.fromkeys(tracker.codes - program.codes.keys(), number)
     if not len(program):
         raise InputError("the program is empty", expected="at least one line of G-code")
     program._finish(tracker)

@@ -7,6 +7,7 @@ No port is opened and no clock is read here, so that every order of events can b
         +----------------------+--> SafeStop --> failed
 """
 
+import math
 from dataclasses import replace
 
 from relieffab.grbl.codes import STATES
@@ -20,6 +21,7 @@ from relieffab.grbl.pace import Pace
 from relieffab.grbl.program import Line, Program, commands
 from relieffab.grbl.realtime import NORMAL
 from relieffab.grbl.record import Record
+from relieffab.grbl.resume import Entry, approach
 from relieffab.grbl.stage import Failure, Fault, Patience
 from relieffab.grbl.stop import SafeStop
 from relieffab.grbl.streaming import Streaming
@@ -71,10 +73,12 @@ class Session:
         self._course: Course | None = None
         self._pace: Pace | None = None
         self._main: Streaming | None = None
-        self._queue: list[tuple[Program, int]] = []
+        self._queue: list[tuple[Program | Entry, int]] = []
         self._overrides = (100, 100, 100)
         self._status: Status | None = None
-        self._stage: Greeting | Streaming | SafeStop | None = Greeting(self._patience, now)
+        self._stage: Greeting | Streaming | SafeStop | None = Greeting(
+            self._patience, now, locked=job.home
+        )
 
     # -- what the driver calls ---------------------------------------------------------------
 
@@ -106,6 +110,8 @@ class Session:
             raise RuntimeError("the session is not ready")
         self.started = now
         self._queue = [(part, 0) for part in self.plan.setup]
+        if self.plan.entry is not None:
+            self._queue.append((self.plan.entry, 0))
         self._queue.append((self._job.program, self.plan.first))
         if not self._job.check and not self._job.program.quiet:
             self._queue.append((commands(*_CLOSING), 0))
@@ -275,12 +281,17 @@ class Session:
             else:
                 self.over = True
             return
-        program, first = self._queue.pop(0)
-        controller, main = self.controller, program is self._job.program
+        part, first = self._queue.pop(0)
+        controller = self.controller
         if controller is None or self._status is None:
             raise RuntimeError("the machine was not asked")
         course = Course(controller.blocks, controller.work_zero, controller.resolution)
-        feed = Feed(program, course.work_position(self._status) or (None, None, None), first)
+        position = course.work_position(self._status)
+        if isinstance(part, Entry):
+            height = math.inf if position is None else position[2]
+            part = commands(*approach(part, height))
+        main = part is self._job.program
+        feed = Feed(part, position or (None, None, None), first)
         self._stage = Streaming(
             feed, course, controller.buffer, self._patience, now,
             attended=self._job.attended, checking=self._job.check and main,

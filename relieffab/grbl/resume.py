@@ -119,14 +119,14 @@ def approach(entry: Entry, z: float) -> list[str]:
     ----------
     entry : Entry
     z : float
-        Where the tool stands, work coordinates, mm.
+        Where the tool stands, work coordinates, mm; inf where the machine does not say.
 
     Returns
     -------
     list of str
     """
     modal, (x, y, depth) = entry.modal, entry.position
-    height = max(z, entry.height)
+    height = max(z, entry.height) if math.isfinite(z) else entry.height
     lines = ["G17G21G90G94", f"G0Z{height:.4f}", f"G0X{x:.4f}Y{y:.4f}"]
     if modal.spindle != 5:
         lines += [f"M{modal.spindle}S{modal.speed:g}", f"G4P{SPIN_UP:g}"]
@@ -156,7 +156,9 @@ def _in_force(modal: Modal) -> list[str]:
     return lines
 
 
-def zero_lost(record: Record | None, position: Point | None, work_zero: Point) -> str:
+def zero_lost(
+    record: Record | None, position: Point | None, work_zero: Point, *, homed: bool = False
+) -> str:
     """Say why work zero cannot be trusted; empty where it can.
 
     Parameters
@@ -165,13 +167,17 @@ def zero_lost(record: Record | None, position: Point | None, work_zero: Point) -
         Of the job that was interrupted.
     position, work_zero : tuple of 3 float
         As the machine reports them now, machine coordinates, mm.
+    homed : bool
+        The machine finds its own zero again first, so that only work zero has to be the same.
     """
     if record is None:
         return "there is no record of where this job left the machine"
-    if not record.position_kept or record.position is None or position is None:
-        return f"the machine lost its position ({record.reason})"
     if math.dist(record.work_zero, work_zero) > APART:
         return "work zero is not where it was"
+    if homed:
+        return ""
+    if not record.position_kept or record.position is None or position is None:
+        return f"the machine lost its position ({record.reason})"
     if math.dist(record.position, position) > APART:
         return (
             "the machine does not stand where it stopped: it was moved, or restarted and counts "

@@ -2,8 +2,17 @@
 
 from dataclasses import dataclass
 
+from relieffab.grbl.codes import error_meaning
 from relieffab.grbl.controller import Controller
 from relieffab.grbl.program import Program
+
+_G = "0 1 2 3 4 10 17 18 19 20 21 28 28.1 30 30.1 38.2 38.3 38.4 38.5 40 43.1 49 53 54 55 56 57"
+_G_TOO = "58 59 61 80 90 91 91.1 92 92.1 93 94"
+_M = "0 1 2 3 4 5 8 9 30"
+KNOWN = frozenset(
+    {f"G{code}" for code in f"{_G} {_G_TOO}".split()} | {f"M{code}" for code in _M.split()}
+)
+"""What Grbl 1.1 understands; everything else is error 20 in the middle of the job."""
 
 ROUNDING = 0.001
 """mm: the last digit of a reported offset."""
@@ -37,6 +46,8 @@ def review(program: Program, controller: Controller) -> Review:
         refusals.append(f"the firmware is Grbl {controller.version or '?'}, not 1.1")
     if controller.settings.get(32, 0):
         refusals.append("laser mode is on ($32=1), which stops the spindle whenever no cut is made")
+    if not controller.hal:
+        refusals += _unknown(program, controller)
     found = misfits(program, controller)
     certain = program.bounds_certain and controller.soft_limits
     (refusals if certain else notes).extend(found)
@@ -44,6 +55,16 @@ def review(program: Program, controller: Controller) -> Review:
     if controller.homing and not any(controller.work_zero):
         notes.append("work zero is the machine's own zero: was it set?")
     return Review(tuple(refusals), tuple(notes))
+
+
+def _unknown(program: Program, controller: Controller) -> list[str]:
+    """Find what would be refused in the middle of the job."""
+    known = KNOWN | ({"M7"} if "M" in controller.options else set())
+    return [
+        f"line {number}: {code} is error:20, {error_meaning(20)}"
+        for code, number in program.codes.items()
+        if code not in known
+    ]
 
 
 def misfits(program: Program, controller: Controller) -> list[str]:

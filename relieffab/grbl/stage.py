@@ -27,6 +27,8 @@ class Patience:
         Before a feed hold or a reset that changed nothing is sent again.
     unattended : float
         In a hold or at an open door that nobody at the keyboard can end.
+    homing : float
+        For a machine to find its switches.
     reconnect : float
         For a port that went away to come back.
     poll : float
@@ -39,6 +41,7 @@ class Patience:
     hold: float = 30.0
     again: float = 0.6
     unattended: float = 60.0
+    homing: float = 180.0
     reconnect: float = 20.0
     poll: float = 0.2
 

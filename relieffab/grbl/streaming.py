@@ -58,6 +58,7 @@ class Streaming:
         self._checking = checking
         self._poll = Poll(patience.poll, now)
         self._watch = Watch(course, self.window, patience, attended=attended)
+        self._patience = patience
         self._silence = patience.answer
         self._alone = False
         self._idle = IDLE_REPORTS
@@ -118,6 +119,8 @@ class Streaming:
                 if len(window) or (line.wire[:1] == b"$" and self._idle < IDLE_REPORTS):
                     break
                 self._alone = True
+                homes = lines.homes(line.text)
+                self._silence = self._patience.homing if homes else self._patience.answer
             line, motion = feed.take()
             self._course.known = self._course.known and feed.followed
             self._course.sent(line, motion)
@@ -143,6 +146,7 @@ class Streaming:
         self._watch.acknowledged()
         if not behind:
             self._alone = False
+            self._silence = self._patience.answer
 
     def _report(self, status: Status, now: float) -> None:
         self.status = status

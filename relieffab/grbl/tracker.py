@@ -72,6 +72,8 @@ class Tracker:
         Slowest feed of a descending cut so far, mm/min; inf where there was none.
     fastest_spindle : float
         Highest S named, rpm.
+    codes : set of str
+        G and M words met so far, such as ``G54``.
     """
 
     def __init__(self, position: Place = (None, None, None)) -> None:
@@ -82,6 +84,7 @@ class Tracker:
         self.certain = True
         self.plunge = math.inf
         self.fastest_spindle = 0.0
+        self.codes: set[str] = set()
         self._simple = False
 
     def follow(self, line: str) -> Motion | None:
@@ -140,6 +143,7 @@ class Tracker:
             if letter in "XYZ":
                 axes["XYZ".index(letter)] = value
             elif letter == "G":
+                self.codes.add(f"G{value:g}")
                 self.modal = self.modal.with_g(value)
                 self.certain = self.certain and value not in _UNFOLLOWED
                 away = away or value in _AWAY
@@ -151,6 +155,7 @@ class Tracker:
                 self.modal = replace(self.modal, speed=value)
                 self.fastest_spindle = max(self.fastest_spindle, value)
             elif letter == "M":
+                self.codes.add(f"M{value:g}")
                 self.modal = self.modal.with_m(value)
         if away or self.modal.motion in _PROBING:
             self._forget(axes)

@@ -2,6 +2,7 @@
 
 from relieffab.grbl.codes import STATES
 from relieffab.grbl.course import Course
+from relieffab.grbl.lines import homes
 from relieffab.grbl.messages import Status
 from relieffab.grbl.stage import HOLD, RESUME, Failure, Fault, Patience
 from relieffab.grbl.window import Window
@@ -73,7 +74,8 @@ class Watch:
         return self._strayed() if self._course.astray else None
 
     def _state(self, status: Status) -> Failure | None:
-        if status.state == "Alarm":
+        first = self._window.first
+        if status.state == "Alarm" and not (first and homes(first.text)):
             return Failure(
                 Fault.ALARM,
                 "the machine is in alarm",

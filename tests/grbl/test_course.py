@@ -36,6 +36,8 @@ def test_positions_are_taken_in_work_coordinates_whatever_is_reported():
     course, _ = on_course("G1X10", offset=(-100.0, -50.0, 0.0))
     course.report(at(-96, -50))
     assert course.cut_mm == 4
+    course.report(at(-96, -50, 0, "|WCO:-106.000,-50.000,0.000"))
+    assert course.cut_mm == 4
     course.report(at(-101, -50, 0, "|WCO:-106.000,-50.000,0.000"))
     assert course.cut_mm == 5
     status = parse("<Run|WPos:7.000,0.000,0.000|FS:0,0>")

@@ -24,7 +24,20 @@ def test_a_machine_in_its_usual_state_needs_nothing_before():
 
 def test_what_others_left_is_put_right():
     left = Controller("1.1h", modal=GC.replace("G90", "G91"))
-    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G17G21G90G94"]
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G17G21G90G94G54"]
+
+
+def test_another_system_is_left_unless_the_program_names_g54():
+    left = Controller("1.1h", modal=GC.replace("G54", "G55"))
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == []
+    named = prepare("G54\nG0X0Y0Z5")
+    assert setup(plan(Job(named), left, IDLE)) == ["G17G21G90G94G54"]
+    assert left.system == "G54"
+
+
+def test_homing_comes_first():
+    found = plan(Job(PROGRAM, home=True), Controller("1.1h", modal=GC), IDLE)
+    assert setup(found) == ["$H"]
 
 
 def test_a_check_begins_with_check_mode():
@@ -45,8 +58,7 @@ def test_where_a_job_is_taken_up(resume, number):
         resume = Resume(line=2, zero_set=True)
         number = 2
     found = plan(Job(PROGRAM, resume=resume), Controller("1.1h", modal=GC), IDLE)
-    assert found.number == number
-    assert setup(found)[0] == "G17G21G90G94"
+    assert found.number == found.entry.number == number
 
 
 def test_a_time_names_a_line_too():

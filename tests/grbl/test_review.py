@@ -43,6 +43,18 @@ def test_what_cannot_carve_is_refused(known, word):
     assert word in review(prepare("G0X1"), known).refusals[0]
 
 
+def test_codes_grbl_does_not_know_are_named_with_their_line():
+    program = prepare("G0X1\nM6T1\nG43H1\nM7\nM7")
+    found = review(program, controller()).refusals
+    assert [text.split(" is")[0] for text in found] == ["line 2: M6", "line 3: G43", "line 4: M7"]
+    mist = controller()
+    mist.options = "VM"
+    assert len(review(program, mist).refusals) == 2
+    hal = controller()
+    hal.hal = True
+    assert review(program, hal).refusals == ()
+
+
 def test_a_spindle_asked_for_too_much_is_noted():
     program = prepare("M3S12000\nG0X1")
     assert "S12000" in review(program, controller(_30=1000)).notes[0]

@@ -7,6 +7,7 @@ import pytest
 from relieffab.errors import InputError, MachineError
 from relieffab.grbl import program as module
 from relieffab.grbl.feed import Feed
+from relieffab.grbl.job import Job, Resume
 from relieffab.grbl.joblog import Log
 from relieffab.grbl.port import open_port
 from relieffab.grbl.program import prepare
@@ -71,12 +72,12 @@ def test_a_spindle_left_on_is_switched_off(port):
 
 def test_the_error_tells_line_meaning_and_what_became_of_the_machine(port):
     with pytest.raises(MachineError) as caught:
-        send("G21\n(note)\nM3S1000\nG1X1F600\nM6\nG1X2", port)
+        send("G21\n(note)\nM3S1000\nG1X1F600\nX2Y1X3\nG1X2", port)
     text = str(caught.value)
     assert caught.value.exit_status == 3
-    assert "line 5: M6" in text
-    assert "error:20" in text
-    assert "not supported" in text
+    assert "line 5: X2Y1X3" in text
+    assert "error:25" in text
+    assert "on the line twice" in text
     assert "its spindle is off" in text
     assert port.device.machine.spindle == 0
 
@@ -153,7 +154,7 @@ def test_how_far_it_came_is_kept_every_two_seconds_and_forgotten_at_the_end(port
 def test_a_job_that_failed_says_where_to_go_on(port):
     kept = []
     with pytest.raises(MachineError, match="--from-line") as caught:
-        send(raster(200) + "M6\n" + raster(200), port, Company(keep=kept.append))
+        send(raster(200) + "X1X2\n" + raster(200), port, Company(keep=kept.append))
     last = kept[-1]
     assert f"--from-line {last.line}" in str(caught.value)
     assert 180 < last.line < 203
@@ -189,6 +190,34 @@ def test_a_disk_too_full_for_the_record_stops_it_as_well(port):
     assert "could not be recorded" in str(caught.value)
     assert "--from-line" in str(caught.value)
     assert port.device.machine.spindle == 0
+
+
+def test_what_grbl_does_not_know_is_refused_before_it_moves(port):
+    with pytest.raises(MachineError, match=r"line 3: M6 is error:20"):
+        send("M3S900\nG1X5F600\nM6\nG1X2", port)
+    assert port.device.machine.path == []
+
+
+def test_a_machine_that_homes_is_homed_if_told_to():
+    with open_port(FAST + "&$22=1&$20=1") as port:
+        report = send(Job(prepare("G0X-5\nG1X-9F600"), home=True), port)
+        assert report.position == pytest.approx((-9, -1, -1))
+        assert port.device.machine.path[0] == (-5.0, -1.0, -1.0)
+
+
+def test_after_homing_a_job_goes_on_whatever_the_power_did():
+    kept, text = [], "G0X-30Y-30Z-2\n" + raster(200).replace("X", "X-").replace("Y", "Y-")
+    text = text.replace("Z-0", "Z-5") + "G0Z2\n"
+    with open_port(FAST + "&$22=1&$20=1&reboot_at=20") as port:
+        port.device.machine.interpreter.coordinates.systems[54.0] = [0.0, 0.0, -10.0]
+        with pytest.raises(MachineError, match="restarted"):
+            send(Job(prepare(text), home=True), port, Company(keep=kept.append))
+    record = kept[-1]
+    assert not record.position_kept
+    with open_port(FAST + "&$22=1&$20=1") as port:
+        port.device.machine.interpreter.coordinates.systems[54.0] = [0.0, 0.0, -10.0]
+        send(Job(prepare(text), home=True, resume=Resume(record)), port)
+        assert len(port.device.machine.path) < 202
 
 
 def test_a_locked_machine_is_not_unlocked_behind_anyones_back():
