@@ -48,7 +48,12 @@ def listing(
 
 @machines.command(name="import-grbl")
 def import_grbl(
-    dump: Annotated[str, Parameter(help="file with the answer to $$, or - for what is piped in")],
+    dump: Annotated[
+        str,
+        Parameter(
+            help="file with the answer to $$, or - for what is piped in", allow_leading_hyphen=True
+        ),
+    ],
     /,
     *,
     name: Annotated[str, Parameter(help="of the profile, as --machine will ask for it")],
