@@ -54,7 +54,7 @@ class Controller:
         if isinstance(message, Setting):
             self.settings[message.number] = message.value
         elif message.tag == "VER":
-            self.version = self.version or message.text.partition(".2")[0]
+            self.version = message.text.partition(".2")[0]  # asked twice, unlike the banner
         elif message.tag in ("NEWOPT", "FIRMWARE"):
             self.hal = True
         elif message.tag == "OPT":

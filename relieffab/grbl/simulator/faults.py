@@ -54,7 +54,7 @@ class Faults:
             (self.reboot_at, machine.reboot),
             (self.limit_at, machine.hit_limit),
             (self.door_at, lambda: machine.open_door(self.door_s)),
-            (self.hold_at, machine.hold),
+            (self.hold_at, machine.suspension.hold),
             (self.stray_at, lambda: machine.say("ok")),
         ):
             if time < math.inf:

@@ -12,17 +12,17 @@ from collections.abc import Callable
 
 from relieffab.grbl.simulator import reports
 from relieffab.grbl.simulator.commands import EEPROM_SECONDS
-from relieffab.grbl.simulator.interpreter import Interpreter, Move, Probe
+from relieffab.grbl.simulator.interpreter import Interpreter, Move
 from relieffab.grbl.simulator.planner import Planner, Point
+from relieffab.grbl.simulator.probing import Prober
 from relieffab.grbl.simulator.processor import Processor
 from relieffab.grbl.simulator.realtime import Overrides, act
 from relieffab.grbl.simulator.settings import Settings
+from relieffab.grbl.simulator.suspend import Suspension
 from relieffab.grbl.simulator.wire import Wire
 from relieffab.grbl.simulator.words import Refused
 
 HOMING_SECONDS = 8.0
-SPINDLE_DELAY = 4.0
-"""Seconds the spindle gets after the safety door was closed."""
 _CRITICAL = (1, 2)
 
 
@@ -53,8 +53,6 @@ class SimulatedGrbl:
         Boot, Idle, Run, Hold, Jog, Door, Home, Alarm, Check, Sleep.
     spindle : float
         rpm; 0 is off.
-    door_open : bool
-        The safety door's switch.
     """
 
     def __init__(
@@ -84,11 +82,9 @@ class SimulatedGrbl:
         self._booted = boot
         self._boot_seconds = boot
         self._blank = blank
-        self._plate = plate
-        self._probing = False
-        self._restored = math.inf
+        self.suspension = Suspension(self)
+        self.prober = Prober(self, plate)
         self._events: list[tuple[float, int, Callable[[], None]]] = []
-        self.door_open = False
         self.probed = reports.Probed()
         self._dead = self._limited = False
         self.wire.deaf_until = boot
@@ -123,7 +119,7 @@ class SimulatedGrbl:
 
     def next_event(self) -> float:
         """When something happens next, as far as the bytes known now decide."""
-        event = min(self.planner.end, self._booted, self._restored)
+        event = min(self.planner.end, self._booted, self.suspension.restored)
         if self._events:
             event = min(event, self._events[0][0])
         if self.wire.urgent:
@@ -147,15 +143,15 @@ class SimulatedGrbl:
             heapq.heappop(self._events)[2]()
         if self._booted <= self.now:
             self._boot()
-        if self._restored <= self.now:
-            self._go_on()
+        if self.suspension.restored <= self.now:
+            self.suspension.go_on()
         if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
             _, byte = self.wire.urgent.popleft()
             if self.state != "Boot":
                 act(self, byte)
         if self.planner.end <= self.now:
             self._move_ended()
-        self._work()
+        self.work()
 
     def run(self, until: float) -> None:
         """Go on to `until`, through all events on the way."""
@@ -171,7 +167,7 @@ class SimulatedGrbl:
         position, speed = self.planner.motion(self.now)
         self.say(
             self._reports.line(
-                self._state_name(),
+                self.suspension.name(),
                 position,
                 offset=self.interpreter.coordinates.work_offset,
                 room=(self.planner.size - len(self.planner.blocks), self.wire.free),
@@ -183,52 +179,14 @@ class SimulatedGrbl:
             )
         )
 
-    def hold(self, state: str = "Hold") -> None:
-        """Brake to a stop and stay there until resumed."""
-        if state == "Door":
-            self.say("[MSG:Check Door]")
-        if self.state == "Jog":
-            self.cancel_jog()
-            return
-        if self.state not in ("Idle", "Run") and not (state == "Door" and self.state == "Hold"):
-            return
-        self.state = state
-        self._restored = math.inf
-        self.planner.hold(self.now)
-        if state == "Door":
-            self.spindle = 0.0
-
-    def resume(self) -> None:
-        """Go on after a hold, a pause or a closed door."""
-        if self.state not in ("Hold", "Door") or self.planner.running or self.door_open:
-            return
-        turning = self.interpreter.spindle != 5
-        if turning and not self.spindle:
-            self._restored = self.now + SPINDLE_DELAY
-        else:
-            self._go_on()
-
     def open_door(self, seconds: float) -> None:
         """Open the safety door, and close it after so many seconds."""
-        self.door_open = True
-        self.hold("Door")
+        self.suspension.door_open = True
+        self.suspension.hold("Door")
         self.at(self.now + seconds, self._close_door)
 
     def _close_door(self) -> None:
-        self.door_open = False
-
-    def _go_on(self) -> None:
-        self._restored = math.inf
-        if self.interpreter.spindle != 5:
-            self.spindle = self.interpreter.speed
-        self.planner.resume(self.now)
-        self.state = "Run" if self.planner.running else "Idle"
-        self._work()
-
-    def toggle_spindle(self) -> None:
-        """Switch the spindle off or on while held."""
-        if self.state == "Hold" and not self.planner.running and self.interpreter.spindle != 5:
-            self.spindle = 0.0 if self.spindle else self.interpreter.speed
+        self.suspension.door_open = False
 
     def toggle_coolant(self) -> None:
         """Switch the flood coolant."""
@@ -243,11 +201,6 @@ class SimulatedGrbl:
         self.planner.add(move.target, move.feed, self.now)
         self.state = "Jog"
         self.planner.start(self.now)
-
-    def cancel_jog(self) -> None:
-        """Brake and forget the jog."""
-        if self.state == "Jog":
-            self.planner.hold(self.now)
 
     def sleep(self) -> None:
         """Switch everything off until a reset."""
@@ -266,7 +219,7 @@ class SimulatedGrbl:
 
     def hit_limit(self) -> None:
         """Run into a limit switch: stop at once, position lost."""
-        self._alarm(1)
+        self.alarm(1)
 
     def reboot(self) -> None:
         """Lose power for a moment, or be reset by the port: all but the EEPROM is forgotten."""
@@ -284,7 +237,7 @@ class SimulatedGrbl:
             self.state = "Alarm"
         moving = self.planner.running or self.state == "Home"
         if moving and self.state != "Alarm":
-            self._alarm(6 if self.state == "Home" else 3)
+            self.alarm(6 if self.state == "Home" else 3)
         self._restart()
 
     def deafen(self, seconds: float) -> None:
@@ -322,48 +275,13 @@ class SimulatedGrbl:
             for travel, value in zip(self.settings.travel, move.target, strict=True)
         )
 
-    def probe(self, wanted: Probe) -> bool:
-        """Begin a probing move, or go on with it; True once it is over."""
-        if self._probing:
-            self._touched(wanted)
-            return True
-        start = self.planner.position
-        if (start[2] <= self._plate) is not wanted.away:
-            self._alarm(4)
-            return True
-        self._probing = True
-        self.planner.add(self._contact(start, wanted.target), wanted.feed, self.now)
-        self.start()
-        return not self.planner.blocks
-
-    def _contact(self, start: Point, target: Point) -> Point:
-        """Where on the way the plate's height is met; the target where it is not."""
-        fall = start[2] - target[2]
-        share = (start[2] - self._plate) / fall if fall else math.inf
-        if not 0.0 <= share <= 1.0:
-            return target
-        x, y, z = (a + share * (b - a) for a, b in zip(start, target, strict=True))
-        return x, y, z
-
-    def _touched(self, wanted: Probe) -> None:
-        self._probing = False
-        place = self.planner.position
-        self.interpreter.coordinates.position = list(place)
-        met = math.dist(place, wanted.target) > 1.0 / min(self.settings.steps)
-        if met:
-            self.probed = reports.Probed(place, touched=True)
-        elif wanted.must:
-            self._alarm(5)
-            return
-        self.say(self.probed.line(inches=bool(self.settings[13])))
-
     def limit_reached(self) -> None:
         """Brake, then lock up and be silent until reset."""
         if self.planner.running:
             self._limited = True
-            self.hold()
+            self.suspension.hold()
         else:
-            self._alarm(2)
+            self.alarm(2)
 
     def homed(self) -> None:
         """Stand off the switches, position known."""
@@ -378,7 +296,8 @@ class SimulatedGrbl:
 
     # -- within ---------------------------------------------------------------------------
 
-    def _work(self) -> None:
+    def work(self) -> None:
+        """Go on with what waits, where nothing holds it up."""
         if not self._dead and self.state not in ("Boot", "Hold", "Door"):
             self._processor.work()
 
@@ -408,7 +327,8 @@ class SimulatedGrbl:
         self._greet()
 
     def _restart_quietly(self) -> None:
-        self._restored, self._probing = math.inf, False
+        self.suspension.restored = math.inf
+        self.prober.clear()
         self._dead = self._limited = False
         position = self.planner.motion(self.now)[0]
         if self.planner.running or (self.planner.holding and self.planner.blocks):
@@ -437,7 +357,7 @@ class SimulatedGrbl:
         reached = self.planner.finish(self.now)
         self._path.extend(self.planner.position if reached is None else reached)
         if self._limited and not self.planner.running:
-            self._alarm(2)
+            self.alarm(2)
         elif self.state == "Run" and not self.planner.running:
             self.state = "Idle"
         elif self.state == "Jog" and not self.planner.running:
@@ -445,7 +365,7 @@ class SimulatedGrbl:
             self.interpreter.coordinates.position = list(self.planner.position)
             self.state = "Idle"
 
-    def _alarm(self, code: int) -> None:
+    def alarm(self, code: int) -> None:
         """Lock up; after a limit the controller is silent until it is reset."""
         self.state = "Alarm"
         self.spindle = 0.0
@@ -455,17 +375,3 @@ class SimulatedGrbl:
             position = self.planner.motion(self.now)[0]
             self.planner.set_position(position)
             self._dead = True
-
-    def _state_name(self) -> str:
-        if self.state == "Hold":
-            return f"Hold:{1 if self.planner.running else 0}"
-        if self.state == "Door":
-            return f"Door:{self._door()}"
-        return self.state
-
-    def _door(self) -> int:
-        if self._restored < math.inf:
-            return 3
-        if self.planner.running:
-            return 2
-        return 1 if self.door_open else 0

@@ -7,6 +7,7 @@ from typing import Protocol
 from relieffab.grbl.simulator.commands import EEPROM_SECONDS, run_command
 from relieffab.grbl.simulator.commands import Host as CommandHost
 from relieffab.grbl.simulator.interpreter import Action, Move, Probe, Wait
+from relieffab.grbl.simulator.probing import Prober
 from relieffab.grbl.simulator.words import Refused
 
 LINE_LENGTH = 79
@@ -18,6 +19,7 @@ class Host(CommandHost, Protocol):
 
     now: float
     spindle: float
+    prober: Prober
 
     def start(self) -> None:
         """Set off with the moves that wait."""
@@ -33,9 +35,6 @@ class Host(CommandHost, Protocol):
 
     def offset_changed(self) -> None:
         """Have the next status report name the offset."""
-
-    def probe(self, wanted: Probe) -> bool:
-        """Begin a probing move, or go on with it; True once it is over."""
 
 
 class Processor:
@@ -139,7 +138,7 @@ class Processor:
             machine.start()
             return False
         if isinstance(action, Probe):
-            over = machine.probe(action)
+            over = machine.prober.probe(action)
             if over:
                 self._actions.popleft()
             return over
