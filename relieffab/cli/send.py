@@ -1,9 +1,8 @@
 """send: a program to a machine, seen through."""
 
 import json
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,6 +11,7 @@ from cyclopts import Parameter
 
 from relieffab import units
 from relieffab.cli import console
+from relieffab.cli.carving import intentions, status_line
 from relieffab.cli.certificate import check_certificate
 from relieffab.cli.options import Json
 from relieffab.errors import InputError
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from relieffab.grbl.job import Job, Plan
     from relieffab.grbl.program import Program
     from relieffab.grbl.sender import SendReport
-    from relieffab.grbl.view import View
 
 
 def send(
@@ -160,7 +159,7 @@ def _run(job: "Job", url: str, baud: int, kept: "Kept | None", *, ask: bool) -> 
 
     with ExitStack() as stack:
         port = stack.enter_context(open_port(url, baud=baud))
-        show = stack.enter_context(_line())
+        show = stack.enter_context(status_line())
         keys = stack.enter_context(keyboard())
         file = stack.enter_context(kept.log.open("w", encoding="ascii")) if kept else None
         company = Company(
@@ -175,7 +174,7 @@ def _run(job: "Job", url: str, baud: int, kept: "Kept | None", *, ask: bool) -> 
 
 def _confirm(job: "Job", plan: "Plan", keys: Callable[[], str] | None) -> bool:
     """Say what will happen; at a terminal, wait for a yes."""
-    for text in _intentions(job, plan):
+    for text in intentions(job, plan):
         console.message(text)
     if keys is None:
         return True
@@ -192,74 +191,6 @@ def _rest() -> None:
     import time
 
     time.sleep(0.05)
-
-
-def _intentions(job: "Job", plan: "Plan") -> Iterator[str]:
-    program = job.program
-    if job.home:
-        yield "home     the machine runs to its switches first"
-    for note in plan.notes:
-        yield f"note: {note}"
-    ranges = "  ".join(
-        f"{name} {low:.3f}..{high:.3f}"
-        for name, low, high in zip("XYZ", *program.bounds, strict=True)
-        if low is not None and high is not None
-    )
-    if job.check:
-        yield f"check    {len(program):,} lines are read, nothing moves"
-        return
-    yield f"program  {len(program):,} lines, {program.cut_mm:,.0f} mm to cut, {ranges} mm"
-    left = plan.table.total - plan.table.at(plan.first)
-    yield f"time     about {_clock(left)}"
-    if plan.entry is not None:
-        x, y, z = plan.entry.position
-        yield (
-            f"resume   at line {plan.number}: up to Z{plan.entry.height:g}, "
-            f"across to X{x:g} Y{y:g}, "
-            f"spindle on, slowly down to Z{z:g}"
-        )
-
-
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02}:{rest:02}"
-
-
-@contextmanager
-def _line() -> "Iterator[Callable[[View], None]]":
-    """Show the job on one line of stderr; where that is no terminal, only what stops it."""
-    from relieffab.cli.interrupt import raise_if_asked
-
-    terminal, last = sys.stderr.isatty(), ""
-
-    def show(view: "View") -> None:
-        nonlocal last
-        raise_if_asked()
-        if terminal:
-            print(f"\r\x1b[2K{_summary(view)}", end="", file=sys.stderr, flush=True)
-        elif view.meaning and view.meaning != last:
-            console.message(f"{view.state:<8} {view.meaning}")
-        last = view.meaning
-
-    try:
-        yield show
-    finally:
-        if terminal:
-            print(file=sys.stderr)
-
-
-def _summary(view: "View") -> str:
-    if view.meaning:
-        return f"{view.state}: {view.meaning}"
-    where = ",".join(f"{value:.2f}" for value in view.position or ())
-    percent = 100 * view.cut_mm / view.total_mm if view.total_mm else 100
-    left = "" if view.left_s is None else f"  {_clock(view.left_s)} left"
-    over = "" if view.overrides == (100, 100, 100) else "  {}/{}/{} %".format(*view.overrides)
-    return (
-        f"{view.state:<5} {view.cut_mm:,.0f} of {view.total_mm:,.0f} mm ({percent:.0f} %){left}  "
-        f"{where}  F{view.feed:.0f} S{view.speed:.0f}{over}  buffer {view.fill:.0%}"
-    )
 
 
 def _tell(report: "SendReport", *, as_json: bool, check: bool) -> int:

@@ -10,7 +10,8 @@ streaming.py   feed.py gives lines, window.py counts bytes, course.py finds the 
 resume.py      taking a job up again (record.py); joblog.py: every byte, to be replayed
 messages.py    what Grbl says, read; codes.py: what its numbers mean; realtime.py: its keys
 port.py        serial ports, the only home of pyserial
-sender.py      glue: `send(job, port, company)` -> SendReport; view.py: what a person sees
+sender.py      `send(job, port, company)` -> SendReport; drive.py carries the bytes,
+               company.py is who takes part, view.py what a person sees
 profile.py     a machine's profile from its settings
 simulator/     a Grbl 1.1h to try it all on, as sim:// through handlers/
 """

@@ -38,6 +38,10 @@ class Feed:
                 self.cut_mm += motion.length
         self.tracker.position = position
 
+    def start_at(self, position: Place) -> None:
+        """Go on from where the machine has come to meanwhile."""
+        self.tracker.position = position
+
     def take(self) -> tuple[Line, Motion | None]:
         """Give the next line and the way it goes; there must be one."""
         line = self.next

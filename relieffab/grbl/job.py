@@ -120,7 +120,7 @@ def _setup(job: Job, controller: Controller) -> list[Program]:
     """Bring the machine to the state that a program may expect, that of a reset."""
     setup = [commands("$H")] if job.home else []
     if job.check:
-        return [commands("$C")]
+        return [*setup, commands("$C")]
     wrong = not set(_EXPECTED) <= set(controller.modal.split())
     other = controller.system
     if other != "G54" and "G54" in job.program.codes:

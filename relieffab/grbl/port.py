@@ -17,6 +17,13 @@ from serial.tools import list_ports
 
 from relieffab.errors import InputError, MachineError
 
+try:
+    import termios
+
+    _TERMINAL: tuple[type[Exception], ...] = (termios.error,)  # pyserial lets it through
+except ImportError:  # Windows
+    _TERMINAL = ()
+
 BAUD = 115200
 TICK = 0.05
 """Seconds a read waits for the first byte, so that the sender can look at the clock."""
@@ -25,6 +32,9 @@ WRITE_TIMEOUT = 5.0
 """Seconds after which a port that takes no bytes counts as lost."""
 RETRY = 0.5
 """Seconds between two attempts to open a port that went away."""
+
+_GONE = (OSError, TypeError, *_TERMINAL)
+"""What a port raises that went away; TypeError: pyserial has closed it already."""
 
 _HANDLERS = "relieffab.grbl.handlers"
 
@@ -101,7 +111,7 @@ class SerialPort:
             data = self.device.read(1)
             waiting = self.device.in_waiting if data else 0
             return bytes(data + self.device.read(waiting) if waiting else data)
-        except (OSError, TypeError) as error:  # pyserial: TypeError once the device is closed
+        except _GONE as error:
             raise _lost(f"reading from {self.name} failed", error) from error
 
     def _read_posix(self, handle: int) -> bytes:
@@ -121,7 +131,7 @@ class SerialPort:
                 data = data[self._write_posix(self._handle, data) :]
             if data:
                 self.device.write(data)
-        except (OSError, TypeError) as error:  # a time-out of pyserial's is an OSError too
+        except _GONE as error:  # a time-out of pyserial's is an OSError
             raise _lost(f"writing to {self.name} failed", error) from error
 
     def _write_posix(self, handle: int, data: bytes) -> int:
@@ -140,23 +150,23 @@ class SerialPort:
             try:
                 self._use(self._reopen())
                 return True
-            except OSError:
+            except _GONE:
                 if time.monotonic() >= deadline:
                     return False
                 time.sleep(RETRY)
 
     def _let_go(self) -> None:
         """Close what may be gone already; what it says about that helps nobody."""
-        with contextlib.suppress(OSError, TypeError, AttributeError):
+        with contextlib.suppress(*_GONE):
             self.device.reset_output_buffer()
-        with contextlib.suppress(OSError, TypeError):
+        with contextlib.suppress(*_GONE):
             self.device.close()
 
     def close(self) -> None:
         """Let go of the port."""
         try:
             self.device.close()
-        except OSError as error:
+        except _GONE as error:
             raise _lost(f"closing {self.name} failed", error) from error
 
     def __enter__(self) -> "SerialPort":
@@ -202,14 +212,14 @@ def open_port(url: str, *, baud: int = BAUD) -> SerialPort:
         device = opened()
     except ValueError as error:
         raise InputError("this is not a port", found=str(error), where=url) from error
-    except OSError as error:
+    except (OSError, *_TERMINAL) as error:
         raise MachineError(
             f"the port {url} cannot be opened", found=str(error), hint=_why_not(error)
         ) from error
     return SerialPort(url, device, opened)
 
 
-def _why_not(error: OSError) -> str:
+def _why_not(error: Exception) -> str:
     """Say what to do about a port that does not open."""
     text = str(error).lower()
     if "permission" in text or "access is denied" in text:

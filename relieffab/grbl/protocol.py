@@ -73,7 +73,8 @@ class Session:
         self._course: Course | None = None
         self._pace: Pace | None = None
         self._main: Streaming | None = None
-        self._queue: list[tuple[Program | Entry, int]] = []
+        self._feed: Feed | None = None
+        self._queue: list[Program | Entry] = []
         self._overrides = (100, 100, 100)
         self._status: Status | None = None
         self._stage: Greeting | Streaming | SafeStop | None = Greeting(
@@ -109,13 +110,15 @@ class Session:
         if self.plan is None or not self.ready:
             raise RuntimeError("the session is not ready")
         self.started = now
-        self._queue = [(part, 0) for part in self.plan.setup]
+        self._queue = [*self.plan.setup]
         if self.plan.entry is not None:
-            self._queue.append((self.plan.entry, 0))
-        self._queue.append((self._job.program, self.plan.first))
+            self._queue.append(self.plan.entry)
+        self._queue.append(self._job.program)
         if not self._job.check and not self._job.program.quiet:
-            self._queue.append((commands(*_CLOSING), 0))
+            self._queue.append(commands(*_CLOSING))
         self._pace = Pace(self.plan.table, self.plan.first)
+        # followed up to its first line before the spindle turns: that may take seconds
+        self._feed = Feed(self._job.program, (None, None, None), self.plan.first)
         self._begin(now)
         self.command(NORMAL)
 
@@ -281,7 +284,7 @@ class Session:
             else:
                 self.over = True
             return
-        part, first = self._queue.pop(0)
+        part = self._queue.pop(0)
         controller = self.controller
         if controller is None or self._status is None:
             raise RuntimeError("the machine was not asked")
@@ -291,7 +294,9 @@ class Session:
             height = math.inf if position is None else position[2]
             part = commands(*approach(part, height))
         main = part is self._job.program
-        feed = Feed(part, position or (None, None, None), first)
+        start = position or (None, None, None)
+        feed = self._feed if main and self._feed else Feed(part, start)
+        feed.start_at(start)
         self._stage = Streaming(
             feed, course, controller.buffer, self._patience, now,
             attended=self._job.attended, checking=self._job.check and main,

@@ -16,6 +16,7 @@ from relieffab.grbl.watch import Watch
 from relieffab.grbl.window import Window
 
 IDLE_REPORTS = 2
+SOFT_LIMIT = 2
 
 
 class Streaming:
@@ -84,7 +85,7 @@ class Streaming:
             self._poll.heard(now)
             self._report(message, now)
         elif isinstance(message, Alarm):
-            self.fail(_alarmed(message.code))
+            self.fail(_alarmed(message.code, self.window.first))
         elif isinstance(message, Banner):
             self.fail(_restarted(message))
         elif isinstance(message, Other) and len(self.window) and damaged(message.text):
@@ -170,13 +171,16 @@ class Streaming:
         self.over = True
 
 
-def _alarmed(code: int) -> Failure:
+def _alarmed(code: int, line: Line | None) -> Failure:
+    """Name the line where Grbl finds the fault as it reads it: a soft limit."""
+    read = code == SOFT_LIMIT and line is not None
     return Failure(
         Fault.ALARM,
         "the machine raised an alarm",
         found=f"ALARM:{code}, {alarm_meaning(code)}",
         hint="clear its cause, home or unlock the machine, and check the stock",
         alarm=code,
+        where=line.where if read and line else "",
     )
 
 

@@ -103,6 +103,36 @@ def test_ctrl_c_and_any_cancelling_stop_the_machine_and_go_on_up(port, stop):
     assert 20 < len(machine.path) < 400
 
 
+class Impatient:
+    """A port at which somebody presses Ctrl-C again and again."""
+
+    def __init__(self, port):
+        self.port, self.reads, self.name = port, 0, "impatient"
+        self.now, self.write, self.close = port.now, port.write, port.close
+
+    def read(self):
+        self.reads += 1
+        if self.reads > 150 and self.reads % 3 == 0 and self.reads < 170:
+            raise KeyboardInterrupt
+        return self.port.read()
+
+
+def test_more_ctrl_c_does_not_keep_the_machine_from_being_stopped(port):
+    with pytest.raises(KeyboardInterrupt) as caught:
+        send(raster(400), Impatient(port))
+    assert "its spindle is off" in caught.value.__notes__[0]
+    assert port.device.machine.state == "Idle"
+    assert port.device.machine.spindle == 0
+
+
+def test_a_soft_limit_names_the_line_that_goes_too_far():
+    text = "G0X-5Y-5Z-5\nG92X0\nG1X-9F600\nX-400\nX-9"
+    with open_port(FAST + "&$22=1&$20=1") as port, pytest.raises(MachineError) as caught:
+        send(Job(prepare(text), home=True), port)
+    assert "ALARM:2" in str(caught.value)
+    assert "line 4: X-400" in str(caught.value)
+
+
 def test_m0_is_refused_unless_somebody_is_there(port):
     text = "G1X1F600\nM0\nG1X2"
     with pytest.raises(InputError, match="line 2"):
