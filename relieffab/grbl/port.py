@@ -33,7 +33,8 @@ WRITE_TIMEOUT = 5.0
 RETRY = 0.5
 """Seconds between two attempts to open a port that went away."""
 
-_GONE = (OSError, TypeError, *_TERMINAL)
+_UNOPENED: tuple[type[Exception], ...] = (OSError, *_TERMINAL)
+_GONE: tuple[type[Exception], ...] = (TypeError, *_UNOPENED)
 """What a port raises that went away; TypeError: pyserial has closed it already."""
 
 _HANDLERS = "relieffab.grbl.handlers"
@@ -212,7 +213,7 @@ def open_port(url: str, *, baud: int = BAUD) -> SerialPort:
         device = opened()
     except ValueError as error:
         raise InputError("this is not a port", found=str(error), where=url) from error
-    except (OSError, *_TERMINAL) as error:
+    except _UNOPENED as error:
         raise MachineError(
             f"the port {url} cannot be opened", found=str(error), hint=_why_not(error)
         ) from error

@@ -338,6 +338,35 @@ def test_a_machine_that_reports_inches_or_work_positions_is_understood():
         assert wire.session.position == pytest.approx(points[-1], abs=0.02)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_on_a_sound_line_no_machine_is_called_astray(seed):
+    """Arcs in all planes, helices, inches, relative moves, coarse steps, work offsets."""
+    rng = random.Random(seed)
+    lines = ["G0X0Y0Z5", "F3000"]
+    for _ in range(16):
+        radius = 10 ** rng.uniform(0, 2)
+        lines += rng.choice(
+            [
+                [f"G1X{rng.uniform(-200, 200):.3f}Y{rng.uniform(-90, 90):.3f}"],
+                ["G17", f"G91G2X{radius:.3f}Y{radius:.3f}I{radius:.3f}J0", "G90"],
+                ["G17", f"G91G3X0Y0Z{rng.uniform(-3, 3):.2f}I{radius:.3f}", "G90"],
+                ["G18", f"G91G2X{radius:.3f}Z{-radius:.3f}I0K{-radius:.3f}", "G90G17"],
+                ["G19", f"G91G3Y{radius:.3f}Z{radius:.3f}R{radius * 1.2:.3f}", "G90G17"],
+                [f"G20G91G1X{rng.uniform(-2, 2):.4f}F100", "G90G21F3000"],
+                [f"G0Z{rng.uniform(0, 9):.2f}"],
+            ]
+        )
+    wire = Wire(
+        session_of(prepare(lines)),
+        settings={100: 40, 101: 40, 102: 40, 110: 9000, 111: 9000, 112: 9000, 10: seed % 4,
+                  120: 400, 121: 400, 122: 400, 13: seed % 2},
+    )  # fmt: skip
+    wire.machine.interpreter.coordinates.systems[54.0] = [12.345, -6.789, 3.21]
+    session = wire.run()
+    assert session.failure is None
+    assert session.cut_mm == pytest.approx(session.view().total_mm)
+
+
 def test_a_byte_altered_on_the_way_to_the_machine_is_seen_by_where_it_goes():
     program, _ = zigzag(100)
     wire = Wire(session_of(program))
