@@ -23,7 +23,7 @@ def demo(
     as_json: Json = False,
 ) -> int:
     """Carve a scarab: model, panel, programs, and a simulated machine that runs one."""
-    from relieffab.cli.machine import stream
+    from relieffab.cli.send import stream
     from relieffab.job import run
 
     with console.progress_bar() as progress:

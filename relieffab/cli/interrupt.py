@@ -37,12 +37,17 @@ def listen() -> None:
             signal.signal(number, _interrupt)
 
 
+def raise_if_asked() -> None:
+    """Raise KeyboardInterrupt once a stop was asked for."""
+    if _asked:
+        raise KeyboardInterrupt
+
+
 def heeding(show: Progress) -> Progress:
     """Wrap a progress callback so that it raises KeyboardInterrupt once a stop was asked for."""
 
     def heed(stage: str, done: float, total: float, unit: str = "") -> None:
-        if _asked:
-            raise KeyboardInterrupt
+        raise_if_asked()
         show(stage, done, total, unit)
 
     return heed

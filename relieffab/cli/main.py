@@ -10,8 +10,10 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
-from relieffab.cli import comparison, composing, first, machine, stages
+from relieffab.cli import comparison, composing, first, stages
 from relieffab.cli.interrupt import listen
+from relieffab.cli.machines import machines
+from relieffab.cli.send import send
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -34,10 +36,10 @@ for command in (
     stages.verify,
     composing.compose,
     comparison.compare,
-    machine.send,
-    machine.machines,
+    send,
 ):
     app.command(command)
+app.command(machines)
 
 
 def run(arguments: Sequence[str]) -> int:

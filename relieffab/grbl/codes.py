@@ -53,8 +53,32 @@ ALARMS: dict[int, str] = {
     7: "homing failed: the safety door was opened",
     8: "homing failed: the limit switch was not released when pulling off ($27)",
     9: "homing failed: no limit switch was found on the way ($130-$132)",
-    10: "homing failed: the second switch of a twin axis was not found",
+    10: "homing failed: the second switch of a twin axis was not found; on grblHAL, the "
+    "emergency stop is pressed",
+    11: "the machine must be homed first",
+    12: "a limit switch is engaged",
+    13: "the probe is protected: it was triggered outside a probing move",
+    14: "the spindle did not reach its speed in time",
+    16: "the controller's own check of its power-on state failed",
+    17: "a motor driver reports a fault",
+    18: "homing failed",
+    19: "the connection to the spindle was lost",
 }
+
+STATES: dict[tuple[str, int | None], str] = {
+    ("Hold", 0): "held: the axes stand still, the spindle turns on",
+    ("Hold", 1): "held: the axes are slowing down",
+    ("Door", 0): "the safety door is closed again: the machine waits to be resumed",
+    ("Door", 1): "the safety door is open: the spindle is off",
+    ("Door", 2): "the safety door was opened: the axes are slowing down",
+    ("Door", 3): "resuming after the safety door: the spindle starts",
+    ("Tool", None): "the machine waits for a change of tools",
+    ("Sleep", None): "the machine sleeps: only a reset wakes it",
+}
+"""States that a person has to know of; 11 and above of the alarms are grblHAL's."""
+
+POSITION_LOST = frozenset({1, 3, 6, 7, 8, 9, 10, 17})
+"""Alarms after which the machine does not know where it is."""
 
 
 def error_meaning(code: int) -> str:

@@ -1,19 +1,21 @@
-"""What a controller says of itself: version, buffer, settings, offsets."""
+"""What a controller says of itself: version, buffer, settings, offsets, modal state."""
 
 import re
 from dataclasses import dataclass, field
 
+from relieffab.grbl.lines import LONGEST_LINE
 from relieffab.grbl.messages import Note, Point, Setting
-from relieffab.grbl.program import LONGEST_LINE, Program
+from relieffab.grbl.modal import MM_PER_INCH
+from relieffab.grbl.pace import Limits
 
 RECEIVE_BUFFER = 128
 """Bytes, where the controller does not report it: Grbl 1.1 on an 8-bit board."""
+FAST_LINES = 2000.0
+"""Lines a second of a 32-bit controller, told by its larger buffer."""
 
-_OFFSETS = {"G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30", "G92", "TLO"}
+SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59")
+_OFFSETS = {*SYSTEMS, "G28", "G30", "G92", "TLO"}
 _NUMBERS = re.compile(r"(?:^|(?<=,))-?\d+\.\d+(?=,|$)")
-
-ROUNDING = 0.001
-"""mm: the last digit of a reported offset."""
 
 
 @dataclass
@@ -23,21 +25,27 @@ class Controller:
     Parameters
     ----------
     version : str
-        From the banner, such as ``1.1h``.
+        From the banner or `$I`, such as ``1.1h``.
     settings : dict
         `$number` -> value.
     offsets : dict
-        G54...G59, G28, G30, G92, TLO -> position, mm.
+        G54...G59, G28, G30, G92, TLO -> position, in the units the machine reports.
     modal : str
         The G-codes in force.
+    hal : bool
+        True for grblHAL, which knows more codes.
+    options : str
+        Letters of the build options ([OPT:]).
     buffer, blocks : int
         Bytes of the receive buffer and moves of the planner ([OPT:]).
     """
 
-    version: str
+    version: str = ""
     settings: dict[int, float] = field(default_factory=dict)
     offsets: dict[str, Point] = field(default_factory=dict)
     modal: str = ""
+    hal: bool = False
+    options: str = ""
     buffer: int = RECEIVE_BUFFER
     blocks: int = 15
 
@@ -45,8 +53,12 @@ class Controller:
         """Take in one line of an answer; a damaged one says nothing."""
         if isinstance(message, Setting):
             self.settings[message.number] = message.value
+        elif message.tag == "VER":
+            self.version = message.text.partition(".2")[0]  # asked twice, unlike the banner
+        elif message.tag in ("NEWOPT", "FIRMWARE"):
+            self.hal = True
         elif message.tag == "OPT":
-            _, *sizes = message.text.split(",")
+            self.options, *sizes = message.text.split(",")
             if len(sizes) >= 2 and all(size.isdigit() for size in sizes[:2]):
                 self.blocks = max(int(sizes[0]), 1)
                 self.limit_buffer(int(sizes[1]), reported=True)
@@ -70,8 +82,22 @@ class Controller:
     @property
     def travel(self) -> Point | None:
         """Travel of X, Y, Z, mm ($130-$132); None where not reported."""
-        x, y, z = (self.settings.get(number) for number in (130, 131, 132))
-        return None if x is None or y is None or z is None else (x, y, z)
+        return self._axes(130)
+
+    @property
+    def room(self) -> tuple[Point, Point] | None:
+        """Lowest and highest machine coordinates, mm.
+
+        Grbl homes to the upper end and counts downwards; built to set its origin where it
+        homes (option Z), axes that home to the lower end ($23) count upwards.
+        """
+        travel = self.travel
+        if travel is None:
+            return None
+        mask = int(self.settings.get(23, 0)) if "Z" in self.options else 0
+        low = [0.0 if mask >> axis & 1 else -travel[axis] for axis in range(3)]
+        high = [travel[axis] if mask >> axis & 1 else 0.0 for axis in range(3)]
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
     @property
     def soft_limits(self) -> bool:
@@ -79,48 +105,47 @@ class Controller:
         return bool(self.settings.get(20, 0))
 
     @property
+    def homing(self) -> bool:
+        """True where the machine finds its own zero ($22)."""
+        return bool(int(self.settings.get(22, 0)) & 1)
+
+    @property
+    def inches(self) -> bool:
+        """True where it reports inches ($13)."""
+        return bool(self.settings.get(13, 0))
+
+    @property
+    def system(self) -> str:
+        """The work coordinate system in force."""
+        named = [word for word in self.modal.split() if word in SYSTEMS]
+        return named[0] if named else "G54"
+
+    @property
     def work_zero(self) -> Point:
         """Where work zero lies in machine coordinates, mm."""
-        modal = self.modal.split()
-        named = [word for word in modal if word in ("G54", "G55", "G56", "G57", "G58", "G59")]
-        parts = [
-            self.offsets.get(key, (0.0, 0.0, 0.0)) for key in [*(named or ["G54"]), "G92", "TLO"]
-        ]
-        return (
-            sum(part[0] for part in parts),
-            sum(part[1] for part in parts),
-            sum(part[2] for part in parts),
+        scale = MM_PER_INCH if self.inches else 1.0
+        parts = [self.offsets.get(key, (0.0, 0.0, 0.0)) for key in (self.system, "G92", "TLO")]
+        x, y, z = (scale * sum(part[axis] for part in parts) for axis in range(3))
+        return x, y, z
+
+    @property
+    def resolution(self) -> float:
+        """Longest step of an axis, mm ($100-$102); 0 where not reported."""
+        steps = self._axes(100)
+        return 1.0 / min(steps) if steps else 0.0
+
+    @property
+    def limits(self) -> Limits:
+        """What bounds its speed."""
+        usual = Limits()
+        return Limits(
+            max_rate=self._axes(110) or usual.max_rate,
+            acceleration=self._axes(120) or usual.acceleration,
+            junction=self.settings.get(11, usual.junction),
+            blocks=self.blocks,
+            line_rate=usual.line_rate if self.buffer < 512 else FAST_LINES,
         )
 
-
-def misfits(program: Program, controller: Controller) -> list[str]:
-    """Say where a program leaves the machine's travel.
-
-    Without soft limits the machine's own zero means nothing, so only the extent is compared
-    with the travel; with them, homed, the room is 0 to -travel on every axis (or 0 to travel
-    where the controller reports so is not told apart: Grbl 1.1 uses the negative side).
-
-    Returns
-    -------
-    list of str
-        One sentence an axis; empty where it fits or nothing can be said.
-    """
-    found: list[str] = []
-    travel = controller.travel
-    if travel is None:
-        return found
-    for axis in range(3):
-        low, high = program.bounds[0][axis], program.bounds[1][axis]
-        if low is None or high is None:
-            continue
-        name, room, zero = "XYZ"[axis], travel[axis], controller.work_zero[axis]
-        if high - low > room:
-            found.append(f"{name} spans {high - low:.3f} mm of {room:.3f} mm of travel")
-        elif controller.soft_limits and not (
-            -room - ROUNDING <= low + zero and high + zero <= ROUNDING
-        ):
-            found.append(
-                f"{name} goes from {low + zero:.3f} to {high + zero:.3f} mm in machine "
-                f"coordinates, the machine from {-room:.3f} to 0"
-            )
-    return found
+    def _axes(self, first: int) -> Point | None:
+        x, y, z = (self.settings.get(first + axis) for axis in range(3))
+        return None if not (x and y and z) else (x, y, z)

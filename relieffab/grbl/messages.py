@@ -6,7 +6,9 @@ look like it (`>G21:ok` of a startup block, `[MSG:ok]`, a garbled `o?k`) is told
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from relieffab.grbl.modal import MM_PER_INCH
 
 Point = tuple[float, float, float]
 
@@ -33,6 +35,7 @@ class Banner:
     """The greeting after every start or reset."""
 
     version: str
+    hal: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,15 +61,20 @@ class Status:
     Parameters
     ----------
     state : str
-        Idle, Run, Hold, Jog, Alarm, Door, Check, Home or Sleep.
+        Idle, Run, Hold, Jog, Alarm, Door, Check, Home, Sleep; grblHAL has Tool too.
     substate : int or None
-        Behind the colon: Hold:0 has stopped, Hold:1 is still slowing down.
+        Behind the colon: Hold:0 has stopped, Hold:1 is still slowing down; Door:0 is closed and
+        waits, 1 is open, 2 is still slowing down, 3 starts again.
     machine, work, offset : tuple of 3 float or None
         MPos, WPos and WCO, mm.
     blocks_free, bytes_free : int or None
         Room in the planner and in the receive buffer.
     feed, speed : float or None
         mm/min and rpm.
+    overrides : tuple of 3 int or None
+        Feed, rapids and spindle, percent.
+    pins : str
+        Inputs that are active: X Y Z limits, P probe, D door, H hold, R reset, S start.
     """
 
     state: str
@@ -78,12 +86,30 @@ class Status:
     bytes_free: int | None = None
     feed: float | None = None
     speed: float | None = None
+    overrides: tuple[int, int, int] | None = None
+    pins: str = ""
+
+    @property
+    def held(self) -> bool:
+        """True where the axes stand still and a person has to let them go on."""
+        return (self.state == "Hold" and self.substate == 0) or (
+            self.state == "Door" and self.substate in (0, 1)
+        )
 
     @property
     def stopped(self) -> bool:
         """True where the axes stand still and will stay so."""
-        held = self.state in ("Hold", "Door") and self.substate == 0
-        return held or self.state in ("Idle", "Alarm", "Check", "Sleep")
+        return self.held or self.state in ("Idle", "Alarm", "Check", "Sleep")
+
+    def in_mm(self) -> "Status":
+        """Give the report of a machine that reports inches ($13=1) in millimetres."""
+        return replace(
+            self,
+            machine=_scaled(self.machine),
+            work=_scaled(self.work),
+            offset=_scaled(self.offset),
+            feed=None if self.feed is None else self.feed * MM_PER_INCH,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +122,11 @@ class Other:
 Message = Acknowledgement | Alarm | Banner | Setting | Note | Status | Other
 
 OK = Acknowledgement(0)
-_BANNER = re.compile(r"(?:Grbl|GrblHAL) (\S+) \[")
+_BANNER = re.compile(r"Grbl(HAL)? (\S+) \[", re.IGNORECASE)
+STATES = {"Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep", "Tool"}
+_NUMBERED = {"Hold", "Door"}
+_POSITIONS = {"MPos", "WPos"}
+_PLAIN_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
 _READERS: tuple[tuple[re.Pattern[str], Callable[[re.Match[str]], Message]], ...] = (
     (re.compile(r"error:(\d{1,3})$"), lambda match: Acknowledgement(int(match[1]))),
@@ -141,19 +171,21 @@ def parse(line: str) -> Message:
         if match := pattern.match(line):
             return make(match)
     banner = _BANNER.search(line)
-    return Banner(banner[1]) if banner else Other(line)
+    return Banner(banner[2], hal=banner[1] is not None) if banner else Other(line)
 
 
 def _status(line: str) -> Message:
     """Read `<State|Key:values|...>`; a damaged report says nothing at all."""
-    if not line.endswith(">"):
-        return Other(line)
     head, *fields = line[1:-1].split("|")
     state, _, substate = head.partition(":")
     values = dict(field.partition(":")[::2] for field in fields)
+    whole = line.endswith(">") and state in STATES and _POSITIONS & values.keys()
+    if not whole or (state in _NUMBERED and not substate):
+        return Other(line)
     try:
-        feed, speed = _floats(values.get("FS") or values["F"] + ",0", 2)
-        blocks, free = _floats(values["Bf"], 2) if "Bf" in values else (None, None)
+        feed, speed = _numbers(values.get("FS", values.get("F", "0") + ",0"), 2)
+        blocks, free = _numbers(values["Bf"], 2) if "Bf" in values else (None, None)
+        over = _numbers(values["Ov"], 3) if "Ov" in values else None
         return Status(
             state,
             int(substate) if substate else None,
@@ -164,20 +196,39 @@ def _status(line: str) -> Message:
             bytes_free=None if free is None else int(free),
             feed=feed,
             speed=speed,
+            overrides=None if over is None else (int(over[0]), int(over[1]), int(over[2])),
+            pins=values.get("Pn", ""),
         )
-    except (ValueError, KeyError):
+    except ValueError:
         return Other(line)
 
 
-def _floats(text: str, count: int) -> tuple[float, ...]:
-    values = tuple(float(part) for part in text.split(","))
-    if len(values) < count:
+def _numbers(text: str, count: int) -> tuple[float, ...]:
+    parts = text.split(",")
+    if len(parts) < count or not all(_PLAIN_NUMBER.fullmatch(part) for part in parts):
         raise ValueError(text)
-    return values[:count]
+    return tuple(float(part) for part in parts[:count])
 
 
 def _point(text: str | None) -> Point | None:
     if text is None:
         return None
-    x, y, z = _floats(text, 3)
+    x, y, z = _numbers(text, 3)
     return x, y, z
+
+
+def _scaled(point: Point | None) -> Point | None:
+    if point is None:
+        return None
+    return point[0] * MM_PER_INCH, point[1] * MM_PER_INCH, point[2] * MM_PER_INCH
+
+
+def damaged(text: str) -> bool:
+    """Say whether a line that means nothing may have been an `ok` or an `error:N`.
+
+    Examples
+    --------
+    >>> damaged("o?k"), damaged("okok"), damaged("erro:22"), damaged("|MPos:0,0>")
+    (True, True, True, False)
+    """
+    return 0 < len(text) <= 5 or text[:3] in ("err", "ror") or "rror:" in text

@@ -1,116 +1,164 @@
-"""A program made ready for the wire: cleaned, checked and measured before a byte is sent."""
+"""A program made ready for the wire: cleaned, checked and measured before a byte is sent.
 
+The clean lines wait in an unnamed temporary file, so that a job of any length takes the same
+little memory, and nobody changes a program while it is carved.
+"""
+
+import hashlib
+import math
 import re
-from array import array
-from collections.abc import Iterable
+import struct
+import tempfile
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import IO
 
 from relieffab.errors import InputError
-from relieffab.grbl.travel import Tracker
+from relieffab.grbl import lines
+from relieffab.grbl.tracker import Motion, Tracker
 
-LONGEST_LINE = 79
-"""Significant characters Grbl takes in one line; one more is error 11."""
+IN_MEMORY = 1 << 22
+"""Bytes up to which a program needs no file."""
+BLOCK = 1 << 13
+"""Bytes, or pieces, read at once."""
+PIECE = struct.Struct("<Lffff")
+"""One straight piece of the way: index of its line, dx, dy, dz (mm), mm/min (inf: rapid).
+
+Where the feed is negative the machine rests for as many seconds.
+"""
 
 _LINE_END = re.compile(r"\r\n|\r|\n")  # str.splitlines also splits at characters of comments
-_COMMENT = re.compile(r"\([^)]*\)?|;.*")
-_WORDS = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+))+")
-_ALONE = re.compile(r"G0*10(?![\d.])|G0*(?:28|30)\.10*(?!\d)")
-_PAUSE = re.compile(r"M0+(?![\d.])")
-_DWELL = re.compile(r"G0*4(?![\d.]).*?P([\d.]+)|P([\d.]+).*?G0*4(?![\d.])")
 
 Bounds = tuple[tuple[float | None, ...], tuple[float | None, ...]]
 
 
-@dataclass(frozen=True)
-class Program:
-    """Clean lines, stored end to end: about 45 bytes for a line of 25 characters.
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line as it goes over the wire.
 
     Parameters
     ----------
-    text : bytes
-        The lines as they go over the wire, each with its line feed.
-    ends : array of int
-        Offset behind each line in `text`.
-    numbers : array of int
+    index : int
+        From 0, among the lines that are sent.
+    number : int
         Line number in the source, from 1.
-    cut : array of float
-        Length of cut up to and with each line, mm.
+    wire : bytes
+        With its line feed.
+    """
+
+    index: int
+    number: int
+    wire: bytes
+
+    @property
+    def text(self) -> str:
+        """Without its line feed."""
+        return self.wire[:-1].decode("ascii")
+
+    @property
+    def where(self) -> str:
+        """For people."""
+        return f"line {self.number}: {self.text}"
+
+
+class Program:
+    """Clean lines, and what is known of them as a whole.
+
+    Attributes
+    ----------
+    cut_mm : float
+        Length of G1, G2 and G3 moves, mm.
+    dwell_s : float
+        Seconds of all G4.
     bounds : tuple
         Lowest and highest named X, Y, Z in work coordinates, mm; None where never named.
     bounds_certain : bool
         False where the program uses codes that the bounds do not follow.
-    pauses : tuple of int
+    pauses : list of int
         Source line numbers of M0.
-    alone : frozenset of int
-        Indices of lines on which Grbl writes its EEPROM and so loses bytes that arrive.
-    dwells : dict
-        Index -> seconds of the lines with G4.
+    quiet : bool
+        True where spindle and coolant are off at the end.
+    plunge : float
+        Slowest feed of a descending cut, mm/min; inf where there is none.
+    speed : float
+        Highest S, rpm.
+    codes : dict
+        G and M words it uses (plain G0 and G1 may be left out) -> first line of the source.
+    digest : str
+        SHA-256 of the clean lines, in hexadecimal: comments do not count.
     """
 
-    text: bytes
-    ends: array
-    numbers: array
-    cut: array
-    bounds: Bounds
-    bounds_certain: bool
-    pauses: tuple[int, ...]
-    alone: frozenset[int]
-    dwells: dict[int, float]
+    def __init__(self) -> None:
+        self.cut_mm = self.dwell_s = 0.0
+        self.pauses: list[int] = []
+        self.codes: dict[str, int] = {}
+        self._count = 0
+        self._text: IO[bytes] = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
+        self._pieces: IO[bytes] = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115
+        self._hash = hashlib.sha256()
+        self._finish(Tracker())
+
+    def _finish(self, tracker: Tracker) -> None:
+        self.bounds: Bounds = (tuple(tracker.low), tuple(tracker.high))
+        self.bounds_certain = tracker.certain
+        self.quiet = tracker.modal.quiet
+        self.plunge, self.speed = tracker.plunge, tracker.fastest_spindle
+        self.digest = self._hash.hexdigest()
 
     def __len__(self) -> int:
-        return len(self.ends)
+        return self._count
 
-    def line(self, index: int) -> bytes:
-        """Line `index`, from 0, as it goes over the wire."""
-        return self.text[self.ends[index - 1] if index else 0 : self.ends[index]]
+    def read(self) -> Iterator[Line]:
+        """Yield the lines, reading a little at a time; several readers do not disturb."""
+        at, rest, index = 0, b"", 0
+        while True:
+            self._text.seek(at)
+            data = self._text.read(BLOCK)
+            if not data:
+                return
+            at += len(data)
+            *records, rest = (rest + data).split(b"\n")
+            for record in records:
+                number, _, wire = record.partition(b" ")
+                yield Line(index, int(number), wire + b"\n")
+                index += 1
 
-    def where(self, index: int) -> str:
-        """Line `index` for people, with its number in the source."""
-        return f"line {self.numbers[index]}: {self.line(index).decode('ascii').strip()}"
+    def line(self, index: int) -> Line:
+        """Find one line; reads all before it."""
+        return next(line for line in self.read() if line.index == index)
 
-    @property
-    def cut_mm(self) -> float:
-        """Length of cut of the whole program, mm."""
-        return float(self.cut[-1]) if self.cut else 0.0
+    def pieces(self) -> Iterator[bytes]:
+        """Yield the straight pieces of the way in blocks of whole `PIECE` records."""
+        at = 0
+        while True:
+            self._pieces.seek(at)
+            data = self._pieces.read(BLOCK * PIECE.size)
+            if not data:
+                return
+            at += len(data)
+            yield data
 
+    def _append(self, number: int, line: str, motion: Motion | None) -> None:
+        wire = line.encode("ascii") + b"\n"
+        self._text.write(b"%d %b" % (number, wire))
+        self._hash.update(wire)
+        if seconds := lines.dwell_seconds(line):
+            self.dwell_s += seconds
+            self._pieces.write(PIECE.pack(self._count, 0.0, 0.0, 0.0, -seconds))
+        if motion is not None:
+            self._put(motion)
+            if motion.cutting:
+                self.cut_mm += motion.length
+        self._count += 1
 
-def clean(line: str) -> str:
-    """Take comments and white space out of a line, as Grbl would, and raise its case.
-
-    Examples
-    --------
-    >>> clean("g1 x1.5 (across) y-2 ; back")
-    'G1X1.5Y-2'
-    >>> clean("%")
-    ''
-    """
-    if "(" in line or ";" in line:
-        line = _COMMENT.sub("", line)
-    bare = "".join(line.split()).upper()
-    return "" if bare == "%" else bare
-
-
-def stands_alone(line: str) -> bool:
-    """Say whether Grbl writes its EEPROM on this line.
-
-    Examples
-    --------
-    >>> stands_alone("G10L2P1X0"), stands_alone("G28")
-    (True, False)
-    """
-    return _ALONE.search(line) is not None
-
-
-def dwell_seconds(line: str) -> float:
-    """Seconds that a G4 on this line waits.
-
-    Examples
-    --------
-    >>> dwell_seconds("G4P2.5")
-    2.5
-    """
-    match = _DWELL.search(line) if "P" in line else None
-    return float(match[1] or match[2]) if match else 0.0
+    def _put(self, motion: Motion) -> None:
+        start = motion.start
+        for point in motion.points:
+            dx, dy, dz = (
+                0.0 if p is None or q is None else q - p for p, q in zip(start, point, strict=True)
+            )
+            self._pieces.write(PIECE.pack(self._count, dx, dy, dz, motion.feed))
+            start = point
 
 
 def prepare(source: str | Iterable[str]) -> Program:
@@ -126,61 +174,43 @@ def prepare(source: str | Iterable[str]) -> Program:
     InputError
         At the first line that Grbl would misread, with its number.
     """
-    parts = [source] if isinstance(source, str) else source
-    lines = (line for part in parts for line in _LINE_END.split(part.removesuffix("\n")))
-    text, ends, numbers, cut = bytearray(), array("Q"), array("L"), array("d")
-    tracker, length = Tracker(), 0.0
-    pauses: list[int] = []
-    alone: list[int] = []
-    dwells: dict[int, float] = {}
-    for number, raw in enumerate(lines, start=1):
-        line = clean(raw)
+    program, tracker = Program(), Tracker()
+    for number, raw in enumerate(split(source), start=1):
+        line = lines.clean(raw)
         if not line:
             continue
-        check(line, number)
-        if "M0" in line and _PAUSE.search(line):
-            pauses.append(number)
-        if stands_alone(line):
-            alone.append(len(ends))
-        if seconds := dwell_seconds(line):
-            dwells[len(ends)] = seconds
-        length += tracker.follow(line)
-        text += line.encode("ascii") + b"\n"
-        ends.append(len(text))
-        numbers.append(number)
-        cut.append(length)
-    if not ends:
+        lines.check(line, number)
+        if lines.pauses(line):
+            program.pauses.append(number)
+        program._append(number, line, tracker.follow(line))
+        if len(tracker.codes) > len(program.codes):
+            program.codes |= dict.fromkeys(tracker.codes - program.codes.keys(), number)
+    if not len(program):
         raise InputError("the program is empty", expected="at least one line of G-code")
-    bounds = (tuple(tracker.low), tuple(tracker.high))
-    return Program(
-        bytes(text), ends, numbers, cut,
-        bounds, tracker.certain, tuple(pauses), frozenset(alone), dwells,
-    )  # fmt: skip
+    program._finish(tracker)
+    return program
 
 
-def check(line: str, number: int) -> None:
-    """Refuse what must not reach the wire: `line` is clean, `number` its source line."""
-    where = f"line {number}"
-    if line.startswith("$"):
-        raise InputError(
-            "a program may not hold $ commands",
-            expected="G-code",
-            found=line,
-            where=where,
-            hint="set up the machine before the program is sent",
-        )
-    if len(line) > LONGEST_LINE:
-        raise InputError(
-            "the line is too long for Grbl",
-            expected=f"at most {LONGEST_LINE} characters without spaces and comments",
-            found=f"{len(line)}",
-            where=where,
-        )
-    if _WORDS.fullmatch(line) is None:
-        raise InputError(
-            "the line is not G-code",
-            expected="words of a letter and a number, plain ASCII",
-            found=ascii(line),
-            where=where,
-            hint="some other characters (! ~ ? and all beyond ASCII) command Grbl at once",
-        )
+def commands(*wanted: str) -> Program:
+    """Give lines of our own, `$` commands included, as a program."""
+    program, tracker = Program(), Tracker()
+    for number, line in enumerate(wanted, start=1):
+        program._append(number, line, tracker.follow(line))
+    program._finish(tracker)
+    return program
+
+
+def split(source: str | Iterable[str]) -> Iterator[str]:
+    """Yield lines, whatever ends them."""
+    for part in [source] if isinstance(source, str) else source:
+        bare = part[:-1] if part.endswith("\n") else part
+        if "\r" in bare or "\n" in bare:
+            yield from _LINE_END.split(bare.removesuffix("\r"))
+        else:
+            yield bare
+
+
+def top(program: Program) -> float:
+    """Highest Z of a program, mm; -inf where it names none."""
+    highest = program.bounds[1][2]
+    return -math.inf if highest is None else highest

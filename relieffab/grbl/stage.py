@@ -23,6 +23,14 @@ class Patience:
         For an acknowledgement while the machine reports that it has nothing to do.
     hold : float
         For the axes to come to rest after a feed hold.
+    again : float
+        Before a feed hold or a reset that changed nothing is sent again.
+    unattended : float
+        In a hold or at an open door that nobody at the keyboard can end.
+    homing : float
+        For a machine to find its switches.
+    reconnect : float
+        For a port that went away to come back.
     poll : float
         Between two status queries; 0.2 costs Grbl 0.5 % of its time.
     """
@@ -31,6 +39,10 @@ class Patience:
     answer: float = 5.0
     stall: float = 3.0
     hold: float = 30.0
+    again: float = 0.6
+    unattended: float = 60.0
+    homing: float = 180.0
+    reconnect: float = 20.0
     poll: float = 0.2
 
 
@@ -46,6 +58,12 @@ class Fault(Enum):
     SILENT = auto()
     LOST_ACKNOWLEDGEMENT = auto()
     STRAY_ACKNOWLEDGEMENT = auto()
+    GARBLED = auto()
+    OFF_COURSE = auto()
+    HELD = auto()
+    ASLEEP = auto()
+    UNPLUGGED = auto()
+    UNRECORDED = auto()
     CANCELLED = auto()
 
 
@@ -58,24 +76,27 @@ class Failure:
     fault : Fault
     message, found, hint : str
         What went wrong, what Grbl said and means by it, what to do next.
-    line : int or None
-        Index into the program of the line at fault, or of the first not acknowledged.
+    where : str
+        The line at fault, where one is.
+    alarm : int or None
+        Grbl's number.
     """
 
     fault: Fault
     message: str
     found: str = ""
     hint: str = ""
-    line: int | None = None
+    where: str = ""
+    alarm: int | None = None
 
 
 class Poll:
-    """Status queries: never more often than `interval`, and how long none was answered."""
+    """Status queries: never more often than `interval`, and how long nothing was heard."""
 
     def __init__(self, interval: float, now: float) -> None:
         self._interval = interval
         self._asked = now
-        self._answered = now
+        self._heard = now
 
     def due(self, now: float) -> bytes:
         """Give the query if it is time for one."""
@@ -84,10 +105,10 @@ class Poll:
         self._asked = now
         return STATUS
 
-    def answered(self, now: float) -> None:
-        """Note a report."""
-        self._answered = now
+    def heard(self, now: float) -> None:
+        """Note a sign of life."""
+        self._heard = now
 
     def silence(self, now: float) -> float:
-        """Seconds since the last report."""
-        return now - self._answered
+        """Seconds since the last sign of life."""
+        return now - self._heard

@@ -1,195 +1,232 @@
-"""The second stage: the program, line by line, as fast as the receive buffer allows.
+"""The second stage: lines, one after the other, as fast as the receive buffer allows.
 
 A job is done when its last line is acknowledged and two status reports in a row then say
 Idle: the last `ok` can come 20 s before the machine stands still, and one single Idle may
 be reported between that `ok` and the start of the last moves.
 """
 
+from relieffab.grbl import lines
 from relieffab.grbl.codes import alarm_meaning, error_meaning
-from relieffab.grbl.messages import Acknowledgement, Alarm, Banner, Message, Status
-from relieffab.grbl.program import Program
-from relieffab.grbl.stage import RESUME, Failure, Fault, Patience, Poll
+from relieffab.grbl.course import Course
+from relieffab.grbl.feed import Feed, alone
+from relieffab.grbl.messages import Acknowledgement, Alarm, Banner, Message, Other, Status, damaged
+from relieffab.grbl.program import Line
+from relieffab.grbl.stage import Failure, Fault, Patience, Poll
+from relieffab.grbl.watch import Watch
 from relieffab.grbl.window import Window
 
 IDLE_REPORTS = 2
+SOFT_LIMIT = 2
 
 
 class Streaming:
-    """Send `program`, counting characters against `buffer` bytes.
+    """Send what `feed` gives, counting characters against `buffer` bytes.
+
+    Parameters
+    ----------
+    feed : Feed
+    course : Course
+        Told every line, so that the machine can be found on it.
+    buffer : int
+    patience : Patience
+    now : float
+    attended : bool
+        Somebody can end a hold.
+    checking : bool
+        The machine is in check mode: errors are gathered, not fatal.
 
     Attributes
     ----------
     acknowledged : int
-        Lines acknowledged so far.
+        Lines acknowledged so far, those before the first one sent included.
     status : Status or None
         The latest report.
-    cut_mm : float
-        Length certainly cut at that report: lines acknowledged less those that the planner
-        still held, mm.
+    errors : list of str
+        What check mode refused.
     """
 
     def __init__(
-        self, program: Program, buffer: int, blocks: int, patience: Patience, now: float
-    ) -> None:
+        self, feed: Feed, course: Course, buffer: int, patience: Patience, now: float,
+        *, attended: bool = False, checking: bool = False,
+    ) -> None:  # fmt: skip
         self.failure: Failure | None = None
         self.over = False
-        self.acknowledged = 0
+        self.acknowledged = feed.next.index if feed.next else 0
         self.status: Status | None = None
-        self.cut_mm = 0.0
-        self.held = False
-        self._program = program
-        self._blocks = blocks
-        self._window = Window(buffer)
-        self._patience = patience
+        self.errors: list[str] = []
+        self.window = Window(buffer)
+        self._feed, self._course = feed, course
+        self._checking = checking
         self._poll = Poll(patience.poll, now)
-        self._sent = 0
+        self._watch = Watch(course, self.window, patience, attended=attended)
+        self._patience = patience
+        self._silence = patience.answer
         self._alone = False
-        self._idle = 0
-        self._idle_since: float | None = None
-        self._dwell = 0.0
+        self._idle = IDLE_REPORTS
+        self._last: Line | None = None
         self._out = b""
 
     @property
-    def sent(self) -> int:
-        """Lines sent so far."""
-        return self._sent
+    def held(self) -> bool:
+        """True while the machine waits to be resumed."""
+        return self.status is not None and self.status.held
 
-    def resume(self) -> None:
-        """End a pause (M0) or a feed hold."""
-        self._out += RESUME
-        self.held = False
+    def command(self, data: bytes) -> None:
+        """Send real-time bytes out of band."""
+        self._watch.told(data)
+        self._out += data
 
     def take(self, message: Message, now: float) -> None:
         """Take in one message."""
         if isinstance(message, Acknowledgement):
+            self._poll.heard(now)
             self._acknowledge(message.code)
         elif isinstance(message, Status):
+            self._poll.heard(now)
             self._report(message, now)
         elif isinstance(message, Alarm):
-            self._fail(
-                Fault.ALARM,
-                "the machine raised an alarm",
-                found=f"ALARM:{message.code}, {alarm_meaning(message.code)}",
-                hint="clear its cause, home or unlock the machine, and check the stock",
-            )
+            self.fail(_alarmed(message.code, self.window.first))
         elif isinstance(message, Banner):
-            self._fail(
-                Fault.RESTARTED,
-                "the machine restarted in the middle of the job",
-                found=f"the banner of Grbl {message.version}",
-                hint="its position is lost: look for a power dip, home it, set work zero again",
-            )
+            self.fail(_restarted(message))
+        elif isinstance(message, Other) and len(self.window) and damaged(message.text):
+            self.fail(_garbled(message.text))
 
     def give(self, now: float) -> bytes:
         """Give the bytes to send, and notice what is overdue."""
+        if not self.over and self._poll.silence(now) > self._silence:
+            self.fail(_silent(self._silence))
         if self.over:
             return b""
-        self._overdue(now)
-        if self.over:
-            return b""
-        out = self._out + self._fill() + self._poll.due(now)
+        out = self._out + self._fill()
         self._out = b""
+        if not self._alone and (asked := self._poll.due(now)):
+            self._watch.asked()
+            return out + asked
         return out
 
+    def fail(self, failure: Failure) -> None:
+        """Stop sending; the first reason is kept."""
+        if self.failure is None:
+            self.failure = failure
+        self.over = True
+
     def _fill(self) -> bytes:
-        program, window, out = self._program, self._window, b""
-        while self._sent < len(program) and not self._alone:
-            index = self._sent
-            line = program.line(index)
-            alone = index in program.alone
-            if not window.fits(len(line)) or (alone and len(window)):
+        """Take lines from the feed while the buffer holds them."""
+        feed, window, out = self._feed, self.window, b""
+        while (line := feed.next) is not None and not self._alone:
+            if not window.fits(len(line.wire)):
                 break
-            self._alone = alone
-            window.sent(index, len(line))
-            self._dwell = max(self._dwell, program.dwells.get(index, 0.0))
-            self._sent = index + 1
-            self._idle_since = None
-            out += line
+            if alone(line):
+                if len(window) or (line.wire[:1] == b"$" and self._idle < IDLE_REPORTS):
+                    break
+                self._alone = True
+                homes = lines.homes(line.text)
+                self._silence = self._patience.homing if homes else self._patience.answer
+            line, motion = feed.take()
+            self._course.known = self._course.known and feed.followed
+            self._course.sent(line, motion)
+            window.sent(line)
+            self._watch.sent(lines.dwell_seconds(line.text) if b"P" in line.wire else 0.0)
+            self._last, self._idle = line, 0
+            out += line.wire
         return out
 
     def _acknowledge(self, code: int) -> None:
-        index = self._window.acknowledged()
-        self._idle_since, self._idle = None, 0
+        line, behind = self.window.acknowledged(), len(self.window)
+        self._idle = 0
+        if line is None:
+            self.fail(_stray(code))
+            return
+        if code and not self._checking:
+            self.fail(_refused(line, code, behind))
+            return
         if code:
-            self._fail(
-                Fault.REFUSED,
-                "the machine refused a line",
-                found=f"error:{code}, {error_meaning(code)}",
-                hint=f"lines up to {self._last_sent()} were already on their way and may have run",
-                line=index,
-            )
-        elif index is None:
-            self._fail(
-                Fault.STRAY_ACKNOWLEDGEMENT,
-                "the machine acknowledged a line that was not sent",
-                hint="something else writes to this port, or the line is noisy; check the stock",
-            )
-        else:
-            self.acknowledged += 1
-            if not len(self._window):
-                self._alone, self._dwell = False, 0.0
+            self.errors.append(f"{line.where}: error:{code}, {error_meaning(code)}")
+        self.acknowledged = line.index + 1
+        self._course.acknowledged(line)
+        self._watch.acknowledged()
+        if not behind:
+            self._alone = False
+            self._silence = self._patience.answer
 
     def _report(self, status: Status, now: float) -> None:
         self.status = status
-        self._poll.answered(now)
-        self._count_cut(status)
-        self.held = status.state in ("Hold", "Door") and status.substate in (0, None)
-        if status.state != "Idle":
-            self._idle_since, self._idle = None, 0
-        elif self.acknowledged == len(self._program):
+        at_rest = status.state in ("Idle", "Check")
+        if not self._checking:
+            self._course.report(status)
+        failure = self._watch.report(status, now)
+        if failure is not None:
+            self.fail(failure)
+        elif at_rest and not len(self.window):
             self._idle += 1
-            self.over = self._idle >= IDLE_REPORTS
-        elif len(self._window):
-            self._stalled(now)
-        if status.state == "Alarm":
-            self._fail(
-                Fault.ALARM,
-                "the machine is in alarm",
-                hint="clear its cause, home or unlock the machine, and check the stock",
-            )
+            if self._feed.next is None and self._idle >= IDLE_REPORTS:
+                self._finish()
 
-    def _count_cut(self, status: Status) -> None:
-        free = 0 if status.blocks_free is None else status.blocks_free
-        done = self.acknowledged - max(self._blocks - free, 0)
-        if done > 0:
-            self.cut_mm = max(self.cut_mm, float(self._program.cut[done - 1]))
-
-    def _overdue(self, now: float) -> None:
-        if self._poll.silence(now) > self._patience.answer:
-            self._fail(
-                Fault.SILENT,
-                "the machine fell silent",
-                found=f"no status report for {self._patience.answer:g} s",
-                hint="the machine may go on with what it has: watch the spindle",
-            )
-
-    def _stalled(self, now: float) -> None:
-        """Notice a machine that reports Idle and yet owes acknowledgements."""
-        if self._idle_since is None:
-            self._idle_since = now
-        if now - self._idle_since > self._patience.stall + self._dwell:
-            self._fail(
-                Fault.LOST_ACKNOWLEDGEMENT,
-                "an acknowledgement never came",
-                found=f"the machine is idle, lines unacknowledged: {len(self._window)}",
-                hint="bytes were lost on the line: shorten the cable or use a shielded one",
-            )
-
-    def _last_sent(self) -> int:
-        return int(self._program.numbers[self._sent - 1]) if self._sent else 0
-
-    def _fail(
-        self,
-        fault: Fault,
-        message: str,
-        *,
-        found: str = "",
-        hint: str = "",
-        line: int | None = None,
-    ) -> None:
-        if self.failure is not None:
+    def _finish(self) -> None:
+        if failure := self._watch.strayed():
+            self.fail(failure)
             return
-        reached = self.acknowledged if line is None else line
-        reached = min(reached, len(self._program) - 1)
-        self.failure = Failure(fault, message, found=found, hint=hint, line=reached)
+        if self._last is not None and not self._checking:
+            self._course.finish(self._last)
         self.over = True
+
+
+def _alarmed(code: int, line: Line | None) -> Failure:
+    """Name the line where Grbl finds the fault as it reads it: a soft limit."""
+    read = code == SOFT_LIMIT and line is not None
+    return Failure(
+        Fault.ALARM,
+        "the machine raised an alarm",
+        found=f"ALARM:{code}, {alarm_meaning(code)}",
+        hint="clear its cause, home or unlock the machine, and check the stock",
+        alarm=code,
+        where=line.where if read and line else "",
+    )
+
+
+def _restarted(banner: Banner) -> Failure:
+    return Failure(
+        Fault.RESTARTED,
+        "the machine restarted in the middle of the job",
+        found=f"the banner of Grbl {banner.version}",
+        hint="look for a power dip or noise on the line, home it, set work zero again",
+    )
+
+
+def _garbled(text: str) -> Failure:
+    return Failure(
+        Fault.GARBLED,
+        "an acknowledgement came damaged",
+        found=ascii(text),
+        hint="what is sent may be damaged as well: shorten the cable or use a shielded one",
+    )
+
+
+def _silent(seconds: float) -> Failure:
+    return Failure(
+        Fault.SILENT,
+        "the machine fell silent",
+        found=f"no answer for {seconds:g} s",
+        hint="the machine may go on with what it has: watch the spindle",
+    )
+
+
+def _stray(code: int) -> Failure:
+    return Failure(
+        Fault.STRAY_ACKNOWLEDGEMENT,
+        "the machine acknowledged a line that was not sent",
+        found=f"error:{code}" if code else "ok",
+        hint="another program writes to this port, or the line is noisy; check the stock",
+    )
+
+
+def _refused(line: Line, code: int, behind: int) -> Failure:
+    return Failure(
+        Fault.REFUSED,
+        "the machine refused a line",
+        found=f"error:{code}, {error_meaning(code)}",
+        hint=f"the next {behind} lines were already on their way and may have run"
+        if behind
+        else "",
+        where=line.where,
+    )

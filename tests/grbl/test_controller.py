@@ -1,13 +1,13 @@
-from relieffab.grbl.controller import Controller, misfits
+import pytest
+
+from relieffab.grbl.controller import Controller
 from relieffab.grbl.messages import Note, Setting
-from relieffab.grbl.program import prepare
 
 
-def controller(*notes, soft=False, zero=(0, 0, 0)):
+def controller(*notes, **settings):
     known = Controller("1.1h")
-    for number, value in {130: 100, 131: 80, 132: 30, 20: int(soft)}.items():
-        known.learn(Setting(number, float(value)))
-    known.offsets["G54"] = zero
+    for number, value in {"130": 100, "131": 80, "132": 30, **settings}.items():
+        known.learn(Setting(int(number.strip("_")), float(value)))
     for note in notes:
         known.learn(note)
     return known
@@ -31,29 +31,45 @@ def test_a_smaller_buffer_seen_in_a_report_is_believed():
     assert known.buffer == 128
 
 
+def test_the_version_comes_from_the_build_where_no_banner_was_seen():
+    known = Controller()
+    known.learn(Note("VER", "1.1h.20190825:my machine"))
+    assert known.version == "1.1h"
+
+
 def test_a_damaged_answer_says_nothing():
     known = controller(Note("G54", "1.000,0\ufffd000,3.000"), Note("TLO", "x"), Note("G92", "1,2"))
     assert known.work_zero == (0.0, 0.0, 0.0)
 
 
+GC = Note("GC", "G0 G55 G17 G21 G90 G94 M5 M9 T0 F0 S0")
+
+
 def test_work_zero_is_the_sum_of_the_offsets_in_force():
     known = controller(
-        Note("GC", "G0 G55 G17 G21 G90 G94 M5 M9 T0 F0 S0"),
+        GC,
         Note("G55", "1.000,2.000,3.000"),
         Note("G92", "0.500,0.000,0.000"),
         Note("TLO", "-4.000"),
     )
+    assert known.system == "G55"
     assert known.work_zero == (1.5, 2.0, -1.0)
 
 
-def test_without_soft_limits_only_the_extent_is_compared():
-    program = prepare("G0X0Y0Z0\nG1X90Y81Z-5")
-    assert misfits(program, controller()) == ["Y spans 81.000 mm of 80.000 mm of travel"]
-    assert misfits(program, Controller("1.1h")) == []
+def test_offsets_in_inches_are_millimetres_inside():
+    assert controller(Note("G54", "1.000,0.000,-2.000"), _13=1).work_zero == (25.4, 0, -50.8)
 
 
-def test_with_soft_limits_the_place_is_compared_too():
-    program = prepare("G0X0Y0Z0\nG1X90Y70Z-5")
-    assert misfits(program, controller(soft=True, zero=(-95, -75, -10))) == []
-    found = misfits(program, controller(soft=True, zero=(-85, -75, -26)))
-    assert [text[0] for text in found] == ["X", "Z"]
+@pytest.mark.parametrize(
+    ("options", "mask", "low", "high"),
+    [("V", 3, (-100, -80, -30), (0, 0, 0)), ("VZ", 3, (0, 0, -30), (100, 80, 0))],
+)
+def test_the_room_depends_on_where_the_machine_homes(options, mask, low, high):
+    assert controller(Note("OPT", f"{options},15,128"), _23=mask).room == (low, high)
+
+
+def test_limits_are_what_the_settings_say():
+    known = controller(_110=900, _111=800, _112=700, _120=30, _121=20, _122=10, _11=0.02)
+    assert known.limits.max_rate == (900, 800, 700)
+    assert known.limits.acceleration == (30, 20, 10)
+    assert known.limits.junction == 0.02

@@ -23,7 +23,7 @@ from relieffab.grbl.messages import (
         ("error:24", Acknowledgement(24)),
         ("ALARM:2", Alarm(2)),
         ("Grbl 1.1h ['$' for help]", Banner("1.1h")),
-        ("GrblHAL 1.1f ['$' or '$HELP' for help]", Banner("1.1f")),
+        ("GrblHAL 1.1f ['$' or '$HELP' for help]", Banner("1.1f", hal=True)),
         ("\x00\x1fGrbl 1.1h ['$' for help]", Banner("1.1h")),
         ("$110=1600.000", Setting(110, 1600.0)),
         ("[OPT:V,15,128]", Note("OPT", "V,15,128")),

@@ -9,7 +9,8 @@ from relieffab.errors import InputError, MachineError
 from relieffab.grbl import port as port_module
 from relieffab.grbl.handlers.protocol_sim import Serial as SimulatedSerial
 from relieffab.grbl.port import Found, SerialPort, open_port, ports
-from relieffab.grbl.sender import send
+from relieffab.grbl.sender import Company, send
+from relieffab.grbl.stage import Patience
 
 pty = pytest.importorskip("pty")
 tty = pytest.importorskip("tty")
@@ -62,6 +63,60 @@ def test_an_error_through_a_real_posix_port():
             send("M3S1000\nG1X1F900\nG1X2Y1X3\nG1X9\n", port)
         assert "error:25" in str(caught.value)
         assert machine.simulated.machine.spindle == 0
+
+
+LONG = "M3S1000\nG0Z5\n" + "".join(f"G1X{i % 9}Y{i // 9}F900\n" for i in range(900))
+
+
+def pull(machine, after):
+    """Close the far end once the machine is at work."""
+
+    def show(view):
+        if view.line > after and not machine.stopping.is_set():
+            machine.stopping.set()
+            machine.thread.join(5.0)
+            os.close(machine.master)
+            os.close(machine.slave)
+            machine.master, machine.slave = os.open(os.devnull, 0), os.open(os.devnull, 0)
+
+    return show
+
+
+def test_a_pulled_cable_on_a_real_posix_port_is_told_with_the_line():
+    with PtyMachine() as machine, open_port(machine.name) as port:
+        with pytest.raises(MachineError, match="connection to the machine was lost") as caught:
+            send(LONG, port, Company(show=pull(machine, 8)), patience=Patience(reconnect=0.2))
+        assert "switch it off by hand" in str(caught.value)
+        assert "--from-line" in str(caught.value)
+
+
+def test_a_cable_put_back_lets_the_machine_be_stopped(tmp_path):
+    name = tmp_path / "router"
+    with PtyMachine() as first, PtyMachine() as second:
+        name.symlink_to(first.name)
+        pulled = pull(first, 8)
+
+        def show(view):
+            pulled(view)
+            if first.stopping.is_set() and str(name.readlink()) != second.name:
+                name.unlink()
+                name.symlink_to(second.name)
+
+        second.simulated.machine.spindle = 1000.0
+        with open_port(str(name)) as port, pytest.raises(MachineError) as caught:
+            send(LONG, port, Company(show=show), patience=Patience(reconnect=5.0))
+        assert "its spindle is off" in str(caught.value)
+        assert "not to be trusted" in str(caught.value)
+        assert second.simulated.machine.spindle == 0
+
+
+def test_a_second_sender_is_kept_off_the_port():
+    with (
+        PtyMachine() as machine,
+        open_port(machine.name),
+        pytest.raises(MachineError, match="close the other program"),
+    ):
+        open_port(machine.name)
 
 
 def test_a_port_that_goes_away_is_a_machine_error():

@@ -1,18 +1,19 @@
 import pytest
 
 from relieffab.errors import InputError
-from relieffab.grbl.program import clean, dwell_seconds, prepare, stands_alone
+from relieffab.grbl import program as module
+from relieffab.grbl.program import PIECE, commands, prepare
 
 
 def lines_of(program):
-    return [program.line(i) for i in range(len(program))]
+    return [line.wire for line in program.read()]
 
 
 def test_comments_blanks_and_white_space_stay_behind():
     program = prepare("%\n(a job; really)\n\n g1 x1 (across)y2 ; back\r\nM5\n%\n")
     assert lines_of(program) == [b"G1X1Y2\n", b"M5\n"]
-    assert list(program.numbers) == [4, 5]
-    assert program.where(1) == "line 5: M5"
+    assert [line.number for line in program.read()] == [4, 5]
+    assert program.line(1).where == "line 5: M5"
 
 
 def test_lines_may_come_from_anywhere():
@@ -33,6 +34,8 @@ def test_lines_may_come_from_anywhere():
         ("X1.2.3", "not G-code"),
         ("G1X", "not G-code"),
         ("$H", "$ commands"),
+        ("$J=X1", "$ commands"),
+        ("$110=!", "$ commands"),
         ("G1X0." + "1" * 75, "too long"),
     ],
 )
@@ -53,8 +56,8 @@ def test_no_character_of_a_comment_ends_its_line(odd):
 
 def test_79_characters_fit_and_80_do_not():
     fits = "G1X0." + "1" * 74
-    assert len(prepare(fits).line(0)) == 80
-    assert len(prepare(" ".join(fits)).line(0)) == 80
+    assert len(prepare(fits).line(0).wire) == 80
+    assert len(prepare(" ".join(fits)).line(0).wire) == 80
     with pytest.raises(InputError, match="80"):
         prepare(fits + "1")
 
@@ -65,38 +68,39 @@ def test_an_empty_program_is_refused(source):
         prepare(source)
 
 
-def test_cut_is_cumulative():
-    program = prepare("G0X0Y0Z0\nG1X3\nG0Z5\nG1Y4")
-    assert list(program.cut) == [0, 3, 3, 7]
-    assert program.cut_mm == 7
+def test_what_is_known_of_the_whole():
+    program = prepare("G0X0Y0Z0\nM3S900\nG1X3F60\nG0Z5\nG1Y4\nZ1F50\nG4P2")
+    assert program.cut_mm == 3 + 4 + 4
+    assert program.bounds == ((0, 0, 0), (3, 4, 5))
+    assert (program.speed, program.plunge, program.dwell_s) == (900, 50, 2)
+    assert not program.quiet
+    assert prepare("M3S1\nM5").quiet
+
+
+def test_the_pieces_of_the_way_name_their_line():
+    program = prepare("G0X0Y0Z0\nG1X3F60\nG4P2\nG0Z5")
+    pieces = [PIECE.unpack_from(data, at) for data in program.pieces()
+              for at in range(0, len(data), PIECE.size)]  # fmt: skip
+    assert pieces[1:] == [(1, 3, 0, 0, 60), (2, 0, 0, 0, -2), (3, 0, 0, 5, float("inf"))]
+
+
+def test_comments_do_not_change_the_digest_but_lines_do():
+    assert prepare("g1 x1 (a)").digest == prepare("G1X1\n;b").digest
+    assert prepare("G1X1").digest != prepare("G1X2").digest
+
+
+def test_long_programs_are_read_in_blocks_by_several_readers(monkeypatch):
+    monkeypatch.setattr(module, "BLOCK", 7)
+    program = prepare(f"X{i}" for i in range(200))
+    pairs = list(zip(program.read(), program.read(), strict=True))
+    assert [a.wire for a, _ in pairs] == [b"X%d\n" % i for i in range(200)]
+    assert [a for a, _ in pairs] == [b for _, b in pairs]
+    assert pairs[-1][0].index == 199
+
+
+def test_lines_of_our_own_may_be_commands():
+    assert lines_of(commands("$C")) == [b"$C\n"]
 
 
 def test_pauses_are_listed():
-    assert prepare("G0X0\nM0\nM00\nM03S10\nM30").pauses == (2, 3)
-
-
-@pytest.mark.parametrize(
-    ("line", "alone"),
-    [("G10L2P1X0", True), ("G28.1", True), ("G30.10", True), ("G90G10L20P1Z0", True),
-     ("G28", False), ("G1X10", False), ("G100", False), ("X28.1", False)],
-)  # fmt: skip
-def test_lines_that_write_the_eeprom_stand_alone(line, alone):
-    assert stands_alone(line) is alone
-
-
-@pytest.mark.parametrize(
-    ("line", "seconds"), [("G4P2.5", 2.5), ("P1G04", 1.0), ("G1X1", 0.0), ("G43.1Z1", 0.0)]
-)
-def test_dwell(line, seconds):
-    assert dwell_seconds(line) == seconds
-
-
-def test_special_lines_are_found_by_index():
-    program = prepare("G0X0\nG10L2P1X0\n(c)\nG4P1.5\nG28.1")
-    assert program.alone == {1, 3}
-    assert program.dwells == {2: 1.5}
-
-
-def test_clean_keeps_what_it_does_not_know():
-    assert clean("(open") == ""
-    assert clean("a / b") == "A/B"
+    assert prepare("G0X0\nM0\nM00\nM03S10\nM30").pauses == [2, 3]

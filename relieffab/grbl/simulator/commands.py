@@ -4,7 +4,7 @@ import re
 from typing import Protocol
 
 from relieffab.grbl.simulator import reports
-from relieffab.grbl.simulator.interpreter import Interpreter
+from relieffab.grbl.simulator.interpreter import Interpreter, Move
 from relieffab.grbl.simulator.planner import Planner
 from relieffab.grbl.simulator.settings import Settings
 from relieffab.grbl.simulator.wire import Wire
@@ -26,6 +26,7 @@ class Host(Protocol):
     wire: Wire
     state: str
     startup: list[str]
+    probed: reports.Probed
 
     def say(self, text: str) -> None:
         """Print a line."""
@@ -39,6 +40,15 @@ class Host(Protocol):
     def check(self) -> None:
         """Switch the check mode."""
 
+    def sleep(self) -> None:
+        """Switch everything off until a reset."""
+
+    def jog(self, move: Move) -> None:
+        """Set off on a jog, or refuse it."""
+
+    def restore(self, what: str) -> None:
+        """Forget what is stored: $ settings, # offsets, * all."""
+
 
 def run_command(machine: Host, line: str) -> None:
     """Run a `$` line, or refuse it."""
@@ -48,6 +58,11 @@ def run_command(machine: Host, line: str) -> None:
     if machine.state == "Check" and line == "$C":
         machine.check()
         return
+    if line.startswith("$J="):
+        if machine.state not in ("Idle", "Jog"):
+            raise Refused(8)
+        machine.jog(machine.interpreter.jog(line[3:]))
+        return
     if machine.state not in ("Idle", "Alarm"):
         raise Refused(8)
     if line in _AT_REST:
@@ -55,6 +70,8 @@ def run_command(machine: Host, line: str) -> None:
     elif setting := _SETTING.fullmatch(line):
         machine.settings.change(int(setting[1]), float(setting[2]))
         machine.deafen(EEPROM_SECONDS)
+    elif line in ("$RST=$", "$RST=#", "$RST=*"):
+        machine.restore(line[-1])
     elif (block := _STARTUP.fullmatch(line)) and machine.state == "Idle":
         read_words(block[2])
         machine.startup[int(block[1])] = block[2]
@@ -83,7 +100,8 @@ def _settings(machine: Host) -> None:
 
 
 def _offsets(machine: Host) -> None:
-    for line in reports.offsets(machine.interpreter):
+    inches = bool(machine.settings[13])
+    for line in reports.offsets(machine.interpreter, machine.probed, inches=inches):
         machine.say(line)
 
 
@@ -117,4 +135,5 @@ _AT_REST = {
     "$N": _startup,
     "$H": _home,
     "$C": _check,
+    "$SLP": lambda machine: machine.sleep(),
 }

@@ -31,6 +31,10 @@ class Coordinates:
         self.selected = 54.0
         self.g92, self.tool_length = [0.0, 0.0, 0.0], 0.0
 
+    def forget(self) -> None:
+        """Clear what is in EEPROM."""
+        self.systems = {number: [0.0, 0.0, 0.0] for number in self.systems}
+
     @property
     def work_offset(self) -> list[float]:
         """Work zero in machine coordinates, mm."""

@@ -20,6 +20,7 @@ _PLANES = {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}
 _AXIS_COMMANDS = (10.0, 28.0, 28.1, 30.0, 30.1, 92.0, 92.1)
 _START = {1: 0.0, 2: 17.0, 3: 90.0, 5: 94.0, 6: 21.0, 7: 40.0, 8: 49.0, 12: 54.0}
 _AFTER_END = {1: 1.0, 2: 17.0, 3: 90.0, 5: 94.0, 7: 40.0, 12: 54.0}
+_PROBING = (38.2, 38.3, 38.4, 38.5)
 _SPINDLE_OFF, _COOLANT_OFF = 5, 9
 _LAST_LINE_NUMBER = 10_000_000
 
@@ -40,7 +41,25 @@ class Wait:
     value: float = 0.0
 
 
-Action = Move | Wait
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """G38: to `target` at `feed` mm/s, until the probe touches or lets go.
+
+    Parameters
+    ----------
+    away : bool
+        Until it lets go (G38.4, G38.5).
+    must : bool
+        An alarm if it does not (G38.2, G38.4).
+    """
+
+    target: Point
+    feed: float
+    away: bool
+    must: bool
+
+
+Action = Move | Wait | Probe
 
 
 class Interpreter:
@@ -116,7 +135,7 @@ class Interpreter:
             feed = words.values.pop("F") * (1.0 if inverse else mm)
         else:
             feed = 0.0 if inverse or self.modal[5] == 93 else self.feed
-        if feed == 0.0 and command in (1, 2, 3) and _target(words.values):
+        if feed == 0.0 and command in (1, 2, 3, *_PROBING) and _target(words.values):
             raise Refused(22)
         return feed
 
@@ -141,7 +160,7 @@ class Interpreter:
             raise
         self.feed, self.tool = feed, int(tool)
         last = moves[-1] if moves else None
-        if isinstance(last, Move):
+        if isinstance(last, Move | Probe):
             coordinates.position = list(last.target)
         return [*self._spindle(words, speed), *actions, *moves, *self._end(words)]
 
@@ -181,6 +200,8 @@ class Interpreter:
             return self._line(words, command, feed)
         if command in (2, 3):
             return self._arc(values, clockwise=command == 2, feed=feed)
+        if command in _PROBING:
+            return self._probe(values, command, feed)
         if command in (28, 30):
             return self._stored_point(values, command)
         stores: dict[float, Callable[[], None]] = {
@@ -238,6 +259,30 @@ class Interpreter:
         if self.modal[5] == 93:
             feed *= sum(math.dist(a, b) for a, b in pairwise([start, *points]))
         return [Move(point, feed / 60.0) for point in points]
+
+    def _probe(self, values: Values, command: float, feed: float) -> list[Action]:
+        goal = self._goal(values)
+        if goal == tuple(self.coordinates.position):
+            raise Refused(33)
+        return [Probe(goal, feed / 60.0, away=command > 38.3, must=command in (38.2, 38.4))]
+
+    def jog(self, line: str) -> Move:
+        """Interpret what stands behind `$J=`; the modal state stays as it is."""
+        kept = (self.modal, self.feed)
+        words = read_words(line)
+        if words.m or not {*words.g.values()} <= {20.0, 21.0, 90.0, 91.0, 53.0}:
+            raise Refused(16)
+        if "F" not in words.values:
+            raise Refused(22)
+        try:
+            self.modal = self.modal | {5: 94.0}
+            actions = self.run("G1" + line)
+        finally:
+            self.modal, self.feed = kept
+        move = next((action for action in actions if isinstance(action, Move)), None)
+        if move is None:
+            raise Refused(26)
+        return move
 
     def _stored_point(self, values: Values, command: float) -> list[Action]:
         """G28, G30: by way of the named axes to the stored point."""

@@ -5,16 +5,22 @@ parsed, a move ends) or to the given time, whichever comes first.  So simulated 
 only what their events cost, and every run of the same bytes at the same times is the same.
 """
 
+import heapq
 import math
 from array import array
+from collections.abc import Callable
 
 from relieffab.grbl.simulator import reports
+from relieffab.grbl.simulator.commands import EEPROM_SECONDS
 from relieffab.grbl.simulator.interpreter import Interpreter, Move
 from relieffab.grbl.simulator.planner import Planner, Point
+from relieffab.grbl.simulator.probing import Prober
 from relieffab.grbl.simulator.processor import Processor
 from relieffab.grbl.simulator.realtime import Overrides, act
 from relieffab.grbl.simulator.settings import Settings
+from relieffab.grbl.simulator.suspend import Suspension
 from relieffab.grbl.simulator.wire import Wire
+from relieffab.grbl.simulator.words import Refused
 
 HOMING_SECONDS = 8.0
 _CRITICAL = (1, 2)
@@ -36,13 +42,15 @@ class SimulatedGrbl:
         Seconds from opening the port to the banner.
     blank : bool
         Start with a blank EEPROM, which prints a page of noise before the banner.
+    plate : float
+        Machine Z of a touch plate that the probe meets, mm; -inf where there is none.
 
     Attributes
     ----------
     now : float
         Simulated seconds since the port was opened.
     state : str
-        Boot, Idle, Run, Hold, Door, Home, Alarm, Check.
+        Boot, Idle, Run, Hold, Jog, Door, Home, Alarm, Check, Sleep.
     spindle : float
         rpm; 0 is off.
     """
@@ -57,6 +65,7 @@ class SimulatedGrbl:
         baud: float = 115200.0,
         boot: float = 1.6,
         blank: bool = False,
+        plate: float = -math.inf,
     ) -> None:
         self.settings = Settings(settings)
         self.interpreter = Interpreter(self.settings)
@@ -71,7 +80,12 @@ class SimulatedGrbl:
         self._reports = reports.StatusReports()
         self._processor = Processor(self, 1.0 / line_rate)
         self._booted = boot
+        self._boot_seconds = boot
         self._blank = blank
+        self.suspension = Suspension(self)
+        self.prober = Prober(self, plate)
+        self._events: list[tuple[float, int, Callable[[], None]]] = []
+        self.probed = reports.Probed()
         self._dead = self._limited = False
         self.wire.deaf_until = boot
 
@@ -99,9 +113,15 @@ class SimulatedGrbl:
         """Print a line."""
         self.wire.say(text, self.now)
 
+    def at(self, time: float, happen: Callable[[], None]) -> None:
+        """Have something happen to the machine at a time."""
+        heapq.heappush(self._events, (time, len(self._events), happen))
+
     def next_event(self) -> float:
         """When something happens next, as far as the bytes known now decide."""
-        event = min(self.planner.end, self._booted)
+        event = min(self.planner.end, self._booted, self.suspension.restored)
+        if self._events:
+            event = min(event, self._events[0][0])
         if self.wire.urgent:
             event = min(event, self.wire.urgent[0][0])
         if self._processor.ready > self.now:
@@ -119,15 +139,19 @@ class SimulatedGrbl:
             return
         self.now = max(self.now, event)
         self._deliver()
+        while self._events and self._events[0][0] <= self.now:
+            heapq.heappop(self._events)[2]()
         if self._booted <= self.now:
             self._boot()
+        if self.suspension.restored <= self.now:
+            self.suspension.go_on()
         if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
             _, byte = self.wire.urgent.popleft()
             if self.state != "Boot":
                 act(self, byte)
         if self.planner.end <= self.now:
             self._move_ended()
-        self._work()
+        self.work()
 
     def run(self, until: float) -> None:
         """Go on to `until`, through all events on the way."""
@@ -143,39 +167,77 @@ class SimulatedGrbl:
         position, speed = self.planner.motion(self.now)
         self.say(
             self._reports.line(
-                self._state_name(),
+                self.suspension.name(),
                 position,
                 offset=self.interpreter.coordinates.work_offset,
                 room=(self.planner.size - len(self.planner.blocks), self.wire.free),
                 pace=(speed * 60.0, self.spindle),
                 overrides=self.overrides.values,
+                accessories=self._accessories(),
                 mask=int(self.settings[10]),
+                inches=bool(self.settings[13]),
             )
         )
 
-    def hold(self, state: str = "Hold") -> None:
-        """Brake to a stop and stay there until resumed."""
-        if self.state not in ("Idle", "Run"):
-            return
-        self.state = state
-        self.planner.hold(self.now)
-        if state == "Door":
-            self.spindle = 0.0
+    def open_door(self, seconds: float) -> None:
+        """Open the safety door, and close it after so many seconds."""
+        self.suspension.door_open = True
+        self.suspension.hold("Door")
+        self.at(self.now + seconds, self._close_door)
 
-    def resume(self) -> None:
-        """Go on after a hold, a pause or a closed door."""
-        if self.state in ("Hold", "Door") and not self.planner.running:
-            if self.state == "Door" and self.interpreter.spindle != 5:
-                self.spindle = self.interpreter.speed
-            self.planner.resume(self.now)
-            self.state = "Run" if self.planner.running else "Idle"
-            self._work()
+    def _close_door(self) -> None:
+        self.suspension.door_open = False
+
+    def toggle_coolant(self) -> None:
+        """Switch the flood coolant."""
+        if self.state in ("Idle", "Run", "Hold"):
+            self.interpreter.coolant = 9 if self.interpreter.coolant == 8 else 8
+
+    def jog(self, move: Move) -> None:
+        """Set off on a jog, or refuse it."""
+        if self.outside(move):
+            raise Refused(15)
+        self.interpreter.coordinates.position = list(move.target)
+        self.planner.add(move.target, move.feed, self.now)
+        self.state = "Jog"
+        self.planner.start(self.now)
+
+    def sleep(self) -> None:
+        """Switch everything off until a reset."""
+        self.say("[MSG:Sleeping]")
+        self.state, self.spindle = "Sleep", 0.0
+
+    def restore(self, what: str) -> None:
+        """Forget what is stored: $ settings, # offsets, * all."""
+        self.say("[MSG:Restoring defaults]")
+        if what in "$*":
+            self.settings.restore()
+        if what in "#*":
+            self.interpreter.coordinates.forget()
+        self.deafen(EEPROM_SECONDS)
+        self.at(self.now + EEPROM_SECONDS, self.reset)
+
+    def hit_limit(self) -> None:
+        """Run into a limit switch: stop at once, position lost."""
+        self.alarm(1)
+
+    def reboot(self) -> None:
+        """Lose power for a moment, or be reset by the port: all but the EEPROM is forgotten."""
+        self._restart_quietly()
+        self.planner.set_position((0.0, 0.0, 0.0))
+        self.interpreter.coordinates.position = [0.0, 0.0, 0.0]
+        self.probed = reports.Probed()
+        self.state = "Boot"
+        self._booted = self.now + self._boot_seconds
+        self.wire.deaf_until = self._booted
 
     def reset(self) -> None:
         """Ctrl-X: stop at once; in motion that loses steps and locks the machine."""
+        if self.state == "Sleep":
+            self.state = "Alarm"
         moving = self.planner.running or self.state == "Home"
         if moving and self.state != "Alarm":
-            self._alarm(6 if self.state == "Home" else 3)
+            self.alarm(6 if self.state == "Home" else 3)
         self._restart()
 
     def deafen(self, seconds: float) -> None:
@@ -217,9 +279,9 @@ class SimulatedGrbl:
         """Brake, then lock up and be silent until reset."""
         if self.planner.running:
             self._limited = True
-            self.hold()
+            self.suspension.hold()
         else:
-            self._alarm(2)
+            self.alarm(2)
 
     def homed(self) -> None:
         """Stand off the switches, position known."""
@@ -234,7 +296,8 @@ class SimulatedGrbl:
 
     # -- within ---------------------------------------------------------------------------
 
-    def _work(self) -> None:
+    def work(self) -> None:
+        """Go on with what waits, where nothing holds it up."""
         if not self._dead and self.state not in ("Boot", "Hold", "Door"):
             self._processor.work()
 
@@ -254,10 +317,21 @@ class SimulatedGrbl:
             self.say(">:error:7")
             self.say(">:error:7")
 
+    def _accessories(self) -> str:
+        turning = {3: "S", 4: "C"}.get(self.interpreter.spindle, "") if self.spindle else ""
+        return turning + ("F" if self.interpreter.coolant == 8 else "")
+
     def _restart(self) -> None:
+        self._restart_quietly()
+        self.state = "Alarm" if self.state == "Alarm" else "Idle"
+        self._greet()
+
+    def _restart_quietly(self) -> None:
+        self.suspension.restored = math.inf
+        self.prober.clear()
         self._dead = self._limited = False
         position = self.planner.motion(self.now)[0]
-        if self.planner.running or self.planner.holding:
+        if self.planner.running or (self.planner.holding and self.planner.blocks):
             self._path.extend(position)
         self.planner.set_position(position)
         self.interpreter.reset()
@@ -267,8 +341,6 @@ class SimulatedGrbl:
         self.spindle = 0.0
         self.wire.clear()
         self._processor.clear()
-        self.state = "Alarm" if self.state == "Alarm" else "Idle"
-        self._greet()
 
     def _greet(self) -> None:
         self.say("")
@@ -285,11 +357,15 @@ class SimulatedGrbl:
         reached = self.planner.finish(self.now)
         self._path.extend(self.planner.position if reached is None else reached)
         if self._limited and not self.planner.running:
-            self._alarm(2)
+            self.alarm(2)
         elif self.state == "Run" and not self.planner.running:
             self.state = "Idle"
+        elif self.state == "Jog" and not self.planner.running:
+            self.planner.set_position(self.planner.motion(self.now)[0])
+            self.interpreter.coordinates.position = list(self.planner.position)
+            self.state = "Idle"
 
-    def _alarm(self, code: int) -> None:
+    def alarm(self, code: int) -> None:
         """Lock up; after a limit the controller is silent until it is reset."""
         self.state = "Alarm"
         self.spindle = 0.0
@@ -299,8 +375,3 @@ class SimulatedGrbl:
             position = self.planner.motion(self.now)[0]
             self.planner.set_position(position)
             self._dead = True
-
-    def _state_name(self) -> str:
-        if self.state in ("Hold", "Door"):
-            return f"{self.state}:{1 if self.planner.running else 0}"
-        return self.state

@@ -6,7 +6,8 @@ from typing import Protocol
 
 from relieffab.grbl.simulator.commands import EEPROM_SECONDS, run_command
 from relieffab.grbl.simulator.commands import Host as CommandHost
-from relieffab.grbl.simulator.interpreter import Action, Move, Wait
+from relieffab.grbl.simulator.interpreter import Action, Move, Probe, Wait
+from relieffab.grbl.simulator.probing import Prober
 from relieffab.grbl.simulator.words import Refused
 
 LINE_LENGTH = 79
@@ -18,6 +19,7 @@ class Host(CommandHost, Protocol):
 
     now: float
     spindle: float
+    prober: Prober
 
     def start(self) -> None:
         """Set off with the moves that wait."""
@@ -135,6 +137,11 @@ class Processor:
         if machine.planner.blocks:
             machine.start()
             return False
+        if isinstance(action, Probe):
+            over = machine.prober.probe(action)
+            if over:
+                self._actions.popleft()
+            return over
         if action.kind == "pause":
             return self._pause()
         self._actions.popleft()

@@ -1,9 +1,11 @@
 """The bytes that act wherever they arrive, in a comment or in the middle of a line."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 from relieffab.grbl.simulator.planner import Planner
+from relieffab.grbl.simulator.suspend import Suspension
 
 FEED = {0x90: None, 0x91: 10, 0x92: -10, 0x93: 1, 0x94: -1}
 RAPID = {0x95: 100, 0x96: 50, 0x97: 25}
@@ -31,18 +33,16 @@ class Host(Protocol):
     planner: Planner
     overrides: Overrides
     now: float
+    suspension: Suspension
 
     def report(self) -> None:
         """Answer `?`."""
 
-    def hold(self, state: str = "Hold") -> None:
-        """Brake and wait."""
-
-    def resume(self) -> None:
-        """Go on."""
-
     def reset(self) -> None:
         """Start anew."""
+
+    def toggle_coolant(self) -> None:
+        """Switch the flood coolant."""
 
 
 def act(machine: Host, byte: int) -> None:
@@ -52,13 +52,22 @@ def act(machine: Host, byte: int) -> None:
     elif byte == ord("?"):
         machine.report()
     elif byte == ord("!"):
-        machine.hold()
+        machine.suspension.hold()
     elif byte == ord("~"):
-        machine.resume()
+        machine.suspension.resume()
     elif byte == 0x84:
-        machine.hold("Door")
+        machine.suspension.hold("Door")
+    elif byte in _TOGGLES:
+        _TOGGLES[byte](machine)
     else:
         _override(machine, byte)
+
+
+_TOGGLES: dict[int, Callable[[Host], None]] = {
+    0x85: lambda machine: machine.suspension.cancel_jog(),
+    0x9E: lambda machine: machine.suspension.toggle_spindle(),
+    0xA0: lambda machine: machine.toggle_coolant(),
+}
 
 
 def _override(machine: Host, byte: int) -> None:

@@ -1,6 +1,7 @@
 """What the simulated Grbl prints, word for word as version 1.1h does."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from relieffab.grbl.simulator.interpreter import Interpreter
 from relieffab.grbl.simulator.wire import Wire
@@ -10,8 +11,10 @@ BANNER = "Grbl 1.1h ['$' for help]"
 LOCKED = "[MSG:'$H'|'$X' to unlock]"
 
 
-def point(values: Sequence[float]) -> str:
-    """Three coordinates, mm."""
+def point(values: Sequence[float], *, inches: bool = False) -> str:
+    """Three coordinates, mm or inches ($13)."""
+    if inches:
+        return ",".join(f"{value / 25.4:.4f}" for value in values)
     return ",".join(f"{value:.3f}" for value in values)
 
 
@@ -20,15 +23,28 @@ def build_info(wire: Wire, blocks: int) -> list[str]:
     return ["[VER:1.1h.20190825:]", f"[OPT:V,{blocks},{wire.size}]"]
 
 
-def offsets(interpreter: Interpreter) -> list[str]:
+def offsets(interpreter: Interpreter, probed: "Probed", *, inches: bool) -> list[str]:
     """`$#`."""
     systems = interpreter.coordinates.systems
+    length = interpreter.coordinates.tool_length
     return [
-        *(f"[G{number:g}:{point(zero)}]" for number, zero in systems.items()),
-        f"[G92:{point(interpreter.coordinates.g92)}]",
-        f"[TLO:{interpreter.coordinates.tool_length:.3f}]",
-        "[PRB:0.000,0.000,0.000:0]",
+        *(f"[G{number:g}:{point(zero, inches=inches)}]" for number, zero in systems.items()),
+        f"[G92:{point(interpreter.coordinates.g92, inches=inches)}]",
+        f"[TLO:{point([length], inches=inches)}]",
+        probed.line(inches=inches),
     ]
+
+
+@dataclass(frozen=True)
+class Probed:
+    """Where the probe touched last, machine mm, and whether it did."""
+
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    touched: bool = False
+
+    def line(self, *, inches: bool) -> str:
+        """As printed after a probing move and by `$#`."""
+        return f"[PRB:{point(self.place, inches=inches)}:{int(self.touched)}]"
 
 
 def modal(interpreter: Interpreter) -> str:
@@ -55,25 +71,30 @@ class StatusReports:
         room: tuple[int, int],
         pace: tuple[float, float],
         overrides: tuple[int, int, int],
+        accessories: str,
         mask: int,
+        inches: bool,
     ) -> str:
         """One report; `room` is blocks and bytes free, `pace` mm/min and rpm."""
         if mask & 1:
-            where = f"MPos:{point(position)}"
+            where = f"MPos:{point(position, inches=inches)}"
         else:
             work = [p - o for p, o in zip(position, offset, strict=True)]
-            where = f"WPos:{point(work)}"
+            where = f"WPos:{point(work, inches=inches)}"
         fields = [state, where]
         if mask & 2:
             fields.append(f"Bf:{room[0]},{room[1]}")
-        fields.append(f"FS:{pace[0]:.0f},{pace[1]:.0f}")
+        feed = pace[0] / 25.4 if inches else pace[0]
+        fields.append(f"FS:{feed:.0f},{pace[1]:.0f}")
         busy = state.partition(":")[0] in ("Run", "Hold", "Home", "Door")
         if self._until_offset <= 0:
-            fields.append(f"WCO:{point(offset)}")
+            fields.append(f"WCO:{point(offset, inches=inches)}")
             self._until_offset = 30 if busy else 10
             self._until_overrides = max(self._until_overrides, 1)
         elif self._until_overrides <= 0:
             fields.append("Ov:" + ",".join(str(value) for value in overrides))
+            if accessories:
+                fields.append(f"A:{accessories}")
             self._until_overrides = 20 if busy else 10
         self._until_offset -= 1
         self._until_overrides -= 1

@@ -54,6 +54,11 @@ class Settings:
             self.values[20] = 0
         self._read()
 
+    def restore(self) -> None:
+        """Go back to the defaults."""
+        self.values = dict(DEFAULTS)
+        self._read()
+
     def __getitem__(self, number: int) -> float:
         return self.values[number]
 

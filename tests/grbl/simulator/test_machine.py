@@ -5,31 +5,6 @@ from relieffab.grbl.simulator import SimulatedGrbl
 BANNER = "Grbl 1.1h ['$' for help]"
 
 
-class Bench:
-    """A machine with everything it said so far."""
-
-    def __init__(self, **options):
-        self.machine = SimulatedGrbl(**{"boot": 0.1} | options)
-        self.said = []
-        self.wait(0.2)
-
-    def wait(self, seconds):
-        self.machine.run(self.machine.now + seconds)
-        self.said += [data.decode().strip() for _, data in self.machine.wire.sent]
-        self.machine.wire.sent.clear()
-        return self
-
-    def tell(self, data, seconds=0.2):
-        self.said.clear()
-        self.machine.write(data if isinstance(data, bytes) else data.encode() + b"\n")
-        return self.wait(seconds).said
-
-
-@pytest.fixture
-def bench():
-    return Bench()
-
-
 def state(bench):
     return bench.tell(b"?")[0][1:].partition("|")[0]
 
@@ -42,8 +17,8 @@ def test_what_is_sent_before_the_banner_vanishes():
     assert machine.lost == 5
 
 
-def test_a_blank_eeprom_prints_noise_around_the_banner():
-    said = Bench(blank=True).said
+def test_a_blank_eeprom_prints_noise_around_the_banner(new_bench):
+    said = new_bench(blank=True).said
     assert said[0] == "error:7"
     assert said[-3:] == [BANNER, ">:error:7", ">:error:7"]
     assert len(said) > 30
@@ -161,8 +136,8 @@ def test_m0_waits_for_cycle_start(bench):
     assert bench.machine.path[-1] == (2.0, 0.0, 0.0)
 
 
-def test_soft_limit_is_an_alarm_then_silence_then_the_position_is_kept():
-    bench = Bench(settings={22: 1, 20: 1})
+def test_soft_limit_is_an_alarm_then_silence_then_the_position_is_kept(new_bench):
+    bench = new_bench(settings={22: 1, 20: 1})
     assert state(bench) == "Alarm"
     assert bench.tell("$H", 10.0) == ["ok"]
     bench.tell("G1X-10F900")
@@ -216,10 +191,10 @@ def test_a_sender_without_flow_control_overruns_the_buffer(bench):
     assert bench.machine.path != wanted
 
 
-def test_the_same_bytes_at_the_same_times_give_the_same_run():
+def test_the_same_bytes_at_the_same_times_give_the_same_run(new_bench):
     runs = []
     for _ in range(2):
-        bench = Bench()
+        bench = new_bench()
         said = bench.tell("G1X3Y1F500\nG1X0\nG2X2I1?", 3.0)
         runs.append((list(said), bench.machine.path, bench.machine.now))
     assert runs[0] == runs[1]

@@ -1,0 +1,187 @@
+"""Where on the program the machine is: its reported position among the last lines sent.
+
+Character counting tells what was read; the moves that wait in the planner tell what was cut.
+A position also tells what no acknowledgement can: that a byte was altered on the line, and
+the machine goes where the program does not.
+"""
+
+import math
+from collections import deque
+from typing import NamedTuple
+
+from relieffab.grbl.messages import Point, Status
+from relieffab.grbl.program import Line
+from relieffab.grbl.tracker import Motion, Place
+
+TOLERANCE = 0.04
+"""mm off the program's way that the chords of arcs and rounded reports explain."""
+STEPS = 2
+"""Steps of an axis that the machine may be off besides."""
+SAME = 0.002
+"""mm by which a later line must be nearer to be preferred."""
+DOUBTED = 4
+"""Sightings that are not believed any more once the machine was seen astray."""
+SEGMENTS = 10
+"""Short moves that the stepper still makes after the planner has let them go."""
+
+
+class _Stretch(NamedTuple):
+    line: Line
+    motion: Motion
+    before: float
+
+
+class Course:
+    """The last lines sent, as far back as the machine can be.
+
+    Parameters
+    ----------
+    blocks : int
+        Moves the planner holds.
+    offset : tuple of 3 float
+        Work zero in machine coordinates, mm; status reports update it.
+    resolution : float
+        Longest step of an axis, mm.
+
+    Attributes
+    ----------
+    cut_mm : float
+        Length certainly cut, from the first line of the program, mm.
+    reached : Line or None
+        The line at which the machine was last seen.
+    off_mm : float
+        Distance of the last report from the program's way; 0 where nothing can be said.
+    known : bool
+        False where the program does what cannot be followed.
+    """
+
+    def __init__(self, blocks: int, offset: Point, resolution: float = 0.0) -> None:
+        self._tolerance = TOLERANCE + STEPS * resolution
+        self.cut_mm = self.off_mm = 0.0
+        self.reached: Line | None = None
+        self.known = True
+        self._depth = blocks + SEGMENTS
+        self._offset = self._heard = offset
+        self._stretches: deque[_Stretch] = deque()
+        self._acknowledged = 0
+        self._cut = 0.0
+        self._seen = False
+        self._earlier: deque[Line | None] = deque(maxlen=DOUBTED)
+
+    @property
+    def astray(self) -> bool:
+        """True where the last report was off the program's way."""
+        return self.off_mm > self._tolerance
+
+    def begin(self, cut_mm: float) -> None:
+        """Start behind so much of the program."""
+        self.cut_mm = self._cut = cut_mm
+
+    def sent(self, line: Line, motion: Motion | None) -> None:
+        """Take in a line that goes out; `reached` starts at the first."""
+        if self.reached is None:
+            self.reached = line
+        if motion is None:
+            return
+        self._stretches.append(_Stretch(line, motion, self._cut))
+        if motion.cutting:
+            self._cut += motion.length
+
+    def acknowledged(self, line: Line) -> None:
+        """Forget what the machine must have left behind by now."""
+        stretches = self._stretches
+        while (
+            self._acknowledged < len(stretches)
+            and stretches[self._acknowledged].line.index <= line.index
+        ):
+            self._acknowledged += 1
+        while self._acknowledged > self._depth:
+            passed = stretches.popleft()
+            self._acknowledged -= 1
+            self._pass(passed)
+
+    def finish(self, line: Line) -> None:
+        """All is done: the machine is idle and owes nothing."""
+        self.cut_mm = max(self.cut_mm, self._cut)
+        self.reached = line
+
+    def work_position(self, status: Status) -> Point | None:
+        """Give the reported position in work coordinates, mm."""
+        if status.offset is not None:  # believed once it was heard twice
+            if status.offset == self._heard:
+                self._offset = status.offset
+            self._heard = status.offset
+        if status.work is not None:
+            return status.work
+        if status.machine is None:
+            return None
+        (x, y, z), (ox, oy, oz) = status.machine, self._offset
+        return x - ox, y - oy, z - oz
+
+    def machine_position(self, status: Status) -> Point | None:
+        """Give the reported position in machine coordinates, mm."""
+        if status.machine is not None or status.work is None:
+            return status.machine
+        (x, y, z), (ox, oy, oz) = status.work, self._offset
+        return x + ox, y + oy, z + oz
+
+    def report(self, status: Status) -> None:
+        """Find the machine on the program."""
+        point = self.work_position(status)
+        self.off_mm = 0.0
+        if point is None or not self.known:
+            return
+        best, found, covered = math.inf, None, 0.0
+        for stretch in self._stretches:
+            near, along = _nearest(stretch.motion, point)
+            if near < best - SAME:
+                best, found, covered = near, stretch, along
+        if found is None:
+            return
+        self.off_mm = best
+        if best <= self._tolerance:
+            self._seen = True
+            self._earlier.append(self.reached)
+            self._see(found, covered)
+        elif self._earlier:  # astray, it may have crossed lines that are still to come
+            self.reached = self._earlier[0]
+
+    def _see(self, stretch: _Stretch, covered: float) -> None:
+        line, cutting = stretch.line, stretch.motion.cutting
+        if self.reached is None or line.index > self.reached.index:
+            self.reached = line
+        self.cut_mm = max(self.cut_mm, stretch.before + (covered if cutting else 0.0))
+
+    def _pass(self, stretch: _Stretch) -> None:
+        """Where positions say nothing, go by what the planner can still hold."""
+        if self._seen and self.known:
+            return
+        following = self._stretches[0] if self._stretches else stretch
+        self._see(following, 0.0)
+
+
+def _nearest(motion: Motion, point: Point) -> tuple[float, float]:
+    """Distance of a point from a line's way, and the length up to there; 0 where not known."""
+    best, along, passed = math.inf, 0.0, 0.0
+    start = motion.start
+    for end in motion.points:
+        gap, share, length = _segment(start, end, point)
+        if gap < best:
+            best, along = gap, passed + share * length
+        passed += length
+        start = end
+    return best, along
+
+
+def _segment(a: Place, b: Place, p: Point) -> tuple[float, float, float]:
+    """Distance from a straight piece, share of it up to the nearest point, its length."""
+    if None in a or None in b:
+        return 0.0, 0.0, 0.0
+    ab = aa = 0.0
+    for u, v, w in zip(a, b, p, strict=True):
+        along = (v or 0.0) - (u or 0.0)
+        ab += along * (w - (u or 0.0))
+        aa += along * along
+    share = min(max(ab / aa, 0.0), 1.0) if aa else 0.0
+    foot = [(u or 0.0) + share * ((v or 0.0) - (u or 0.0)) for u, v in zip(a, b, strict=True)]
+    return math.dist(foot, p), share, math.sqrt(aa)

@@ -1,0 +1,186 @@
+"""Taking a job up again in its middle: what has to be in force, and how to get there."""
+
+import math
+from dataclasses import dataclass
+
+from relieffab.errors import InputError
+from relieffab.grbl.messages import Point
+from relieffab.grbl.modal import Modal
+from relieffab.grbl.program import Program, top
+from relieffab.grbl.record import Record
+from relieffab.grbl.tracker import Place, Tracker
+
+SPIN_UP = 5.0
+"""Seconds for the spindle to reach its speed."""
+APART = 0.02
+"""mm between a recorded and a reported position that rounding explains."""
+CLEARANCE = 1.0
+"""mm above the stock's face, which is Z0, below which nothing moves fast."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """The state of a program in front of one line.
+
+    Parameters
+    ----------
+    index : int
+        Of the line, among those sent.
+    number : int
+        Of the line, in the source.
+    modal : Modal
+    position : tuple of 3 float
+        Where the line begins, work coordinates, mm.
+    height : float
+        Z at which the program itself moves across the stock, mm.
+    plunge : float
+        Its slowest descending feed, mm/min.
+    """
+
+    index: int
+    number: int
+    modal: Modal
+    position: Point
+    height: float
+    plunge: float
+
+
+def entry(program: Program, *, number: int | None = None, index: int = 0) -> Entry:
+    """Follow a program up to a line.
+
+    Parameters
+    ----------
+    program : Program
+    number : int, optional
+        Line of the source; the next one that is sent counts.
+    index : int
+        Used without `number`.
+
+    Raises
+    ------
+    InputError
+        If there is no such line, or the state in front of it cannot be told.
+    """
+    tracker, last = Tracker(), None
+    for line in program.read():
+        last = line
+        if line.number >= number if number is not None else line.index >= index:
+            break
+        tracker.follow(line.text)
+    else:
+        raise InputError(
+            "the program has no such line",
+            expected=f"at most {last.number if last else 0}",
+            found=str(index if number is None else number),
+        )
+    where = f"line {last.number}"
+    if not tracker.certain:
+        raise InputError(
+            "the state in front of this line cannot be rebuilt",
+            found="offsets, stored positions or probing (G10, G28, G53, G55-G59, G92...) before it",
+            where=where,
+        )
+    return Entry(
+        last.index, last.number, tracker.modal, _known(tracker.position, where),
+        _height(program, where), program.plunge,
+    )  # fmt: skip
+
+
+def _known(position: Place, where: str) -> Point:
+    x, y, z = position
+    if x is None or y is None or z is None:
+        raise InputError(
+            "no position is named on every axis before this line",
+            where=where,
+            hint="begin at the first line",
+        )
+    return x, y, z
+
+
+def _height(program: Program, where: str) -> float:
+    height = top(program)
+    if height < CLEARANCE:
+        raise InputError(
+            "the program never goes above the stock, so there is no safe way back into it",
+            expected=f"a height of at least {CLEARANCE:g} mm above Z0",
+            found=f"{height:g} mm" if math.isfinite(height) else "none",
+            where=where,
+        )
+    return height
+
+
+def approach(entry: Entry, z: float) -> list[str]:
+    """Write the lines that bring a machine from rest to the line of `entry`.
+
+    Up first, never down, then across, then the spindle, which gets time for its speed; down
+    slowly as soon as stock can be there; at last what the program has in force.
+
+    Parameters
+    ----------
+    entry : Entry
+    z : float
+        Where the tool stands, work coordinates, mm; inf where the machine does not say.
+
+    Returns
+    -------
+    list of str
+    """
+    modal, (x, y, depth) = entry.modal, entry.position
+    height = max(z, entry.height) if math.isfinite(z) else entry.height
+    lines = ["G17G21G90G94", f"G0Z{height:.4f}", f"G0X{x:.4f}Y{y:.4f}"]
+    if modal.spindle != 5:
+        lines += [f"M{modal.spindle}S{modal.speed:g}", f"G4P{SPIN_UP:g}"]
+    lines += ["M7"] * modal.mist + ["M8"] * modal.flood
+    if depth < CLEARANCE:
+        feed = entry.plunge if math.isfinite(entry.plunge) else modal.feed * modal.scale
+        lines += [f"G0Z{CLEARANCE:.4f}", f"G1Z{depth:.4f}F{_slow(feed):g}"]
+    else:
+        lines.append(f"G0Z{depth:.4f}")
+    return lines + _in_force(modal)
+
+
+def _slow(feed: float) -> float:
+    return feed if feed > 0 else 60.0
+
+
+def _in_force(modal: Modal) -> list[str]:
+    """Write the modal words; a motion mode other than G0 and G1 comes with the line itself."""
+    words = "".join(f"G{code:g}" for code in (modal.plane, modal.units, modal.distance))
+    lines = [words, f"G{modal.feed_mode:g}"]
+    if modal.feed and modal.feed_mode == 94:
+        lines.append(f"F{modal.feed:g}")
+    if modal.spindle == 5 and modal.speed:
+        lines.append(f"S{modal.speed:g}")
+    if modal.motion in (0, 1):
+        lines.append(f"G{modal.motion:g}")
+    return lines
+
+
+def zero_lost(
+    record: Record | None, position: Point | None, work_zero: Point, *, homed: bool = False
+) -> str:
+    """Say why work zero cannot be trusted; empty where it can.
+
+    Parameters
+    ----------
+    record : Record or None
+        Of the job that was interrupted.
+    position, work_zero : tuple of 3 float
+        As the machine reports them now, machine coordinates, mm.
+    homed : bool
+        The machine finds its own zero again first, so that only work zero has to be the same.
+    """
+    if record is None:
+        return "there is no record of where this job left the machine"
+    if math.dist(record.work_zero, work_zero) > APART:
+        return "work zero is not where it was"
+    if homed:
+        return ""
+    if not record.position_kept or record.position is None or position is None:
+        return f"the machine lost its position ({record.reason})"
+    if math.dist(record.position, position) > APART:
+        return (
+            "the machine does not stand where it stopped: it was moved, or restarted and counts "
+            "from another place"
+        )
+    return ""

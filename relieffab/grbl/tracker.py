@@ -1,0 +1,258 @@
+"""Where a program goes, followed line by line: for bounds, for progress, for finding the tool.
+
+Not an interpreter: just enough modal state to place every move.  Where a program does what
+cannot be followed (G28, G53, G92, G10, probing, other work coordinate systems), positions
+go on from the next named one and `certain` turns False.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from relieffab.grbl.modal import Modal
+
+WORD = re.compile(r"([A-Z])([-+]?[\d.]+)")
+_PLAIN = re.compile(r"(?:G([01]))?(?:X([-\d.]+))?(?:Y([-\d.]+))?(?:Z([-\d.]+))?(?:F([\d.]+))?")
+FULL_CIRCLE_BELOW = 5e-7
+"""Radians of an arc that ends where it begins, within rounding."""
+
+Place = tuple[float | None, float | None, float | None]
+"""X, Y, Z in work coordinates, mm; None where an axis is not known."""
+
+_PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
+_PROBING = {38.2, 38.3, 38.4, 38.5}
+_AWAY = {28.0, 30.0, 53.0, 92.0, 92.1, *_PROBING}
+_UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, 49.0, *_AWAY, *map(float, range(55, 60))}
+
+
+class Motion(NamedTuple):
+    """One line's way.
+
+    Parameters
+    ----------
+    start : tuple
+    points : tuple of tuple
+        Ends of its straight pieces; arcs are cut every degree.
+    length : float
+        mm, over the axes that are known.
+    feed : float
+        mm/min; inf for a rapid.
+    """
+
+    start: Place
+    points: tuple[Place, ...]
+    length: float
+    feed: float
+
+    @property
+    def cutting(self) -> bool:
+        """True for G1, G2, G3."""
+        return self.feed != math.inf
+
+
+class Tracker:
+    """The state after the lines followed so far.
+
+    Parameters
+    ----------
+    position : tuple, optional
+        Where the tool is before the first line.
+
+    Attributes
+    ----------
+    modal : Modal
+    position : tuple
+    low, high : list of 3 (float or None)
+        Bounds of the named positions; None on an axis never named.
+    certain : bool
+        False once a line could not be followed, so that the bounds may be wrong.
+    plunge : float
+        Slowest feed of a descending cut so far, mm/min; inf where there was none.
+    fastest_spindle : float
+        Highest S named, rpm.
+    codes : set of str
+        G and M words met so far, such as ``G54``.
+    """
+
+    def __init__(self, position: Place = (None, None, None)) -> None:
+        self.modal = Modal()
+        self.position = position
+        self.low: list[float | None] = [None, None, None]
+        self.high: list[float | None] = [None, None, None]
+        self.certain = True
+        self.plunge = math.inf
+        self.fastest_spindle = 0.0
+        self.codes: set[str] = set()
+        self._simple = False
+
+    def follow(self, line: str) -> Motion | None:
+        """Follow one clean line; None where it does not move."""
+        if self._simple and (match := _PLAIN.fullmatch(line)):
+            return self._straight(*match.groups())
+        motion = self._any(line)
+        modal = self.modal
+        self._simple = (
+            (modal.units, modal.distance, modal.feed_mode) == (21, 90, 94)
+            and modal.motion in (0, 1)
+            and None not in (*self.position, *self.low)
+        )
+        return motion
+
+    def _straight(
+        self, g: str | None, x: str | None, y: str | None, z: str | None, f: str | None
+    ) -> Motion | None:
+        """Follow the commonest kind of line: a straight move in absolute millimetres."""
+        if g is not None and float(g) != self.modal.motion:
+            self.modal = replace(self.modal, motion=float(g))
+        if f is not None:
+            self.modal = replace(self.modal, feed=float(f))
+        start: Any = self.position
+        if x is y is z is None:
+            return None
+        a, b, c = start
+        goal = (
+            a if x is None else float(x),
+            b if y is None else float(y),
+            c if z is None else float(z),
+        )
+        self.position = goal
+        low: Any = self.low
+        high: Any = self.high
+        for axis in range(3):
+            value = goal[axis]
+            if value < low[axis]:
+                low[axis] = value
+            elif value > high[axis]:
+                high[axis] = value
+        length = math.dist(start, goal)
+        feed = self.modal.feed if self.modal.motion else math.inf
+        if goal[2] < c and 0 < feed < self.plunge:
+            self.plunge = feed
+        return Motion(start, (goal,), length, feed)
+
+    def _any(self, line: str) -> Motion | None:
+        axes: dict[int, float] = {}
+        centre: dict[str, float] = {}
+        away = False
+        if line.startswith("$"):
+            return None
+        for letter, text in WORD.findall(line):
+            value = float(text)
+            if letter in "XYZ":
+                axes["XYZ".index(letter)] = value
+            elif letter == "G":
+                self.codes.add(f"G{value:g}")
+                self.modal = self.modal.with_g(value)
+                self.certain = self.certain and value not in _UNFOLLOWED
+                away = away or value in _AWAY
+            elif letter in "IJKR":
+                centre[letter] = value
+            elif letter == "F":
+                self.modal = replace(self.modal, feed=value)
+            elif letter == "S":
+                self.modal = replace(self.modal, speed=value)
+                self.fastest_spindle = max(self.fastest_spindle, value)
+            elif letter == "M":
+                self.codes.add(f"M{value:g}")
+                self.modal = self.modal.with_m(value)
+        if away or self.modal.motion in _PROBING:
+            self._forget(axes)
+            return None
+        return self._move(axes, centre) if axes or centre else None
+
+    def _forget(self, axes: dict[int, float]) -> None:
+        x, y, z = (None if not axes or a in axes else self.position[a] for a in range(3))
+        self.position = (x, y, z)
+
+    def _move(self, axes: dict[int, float], centre: dict[str, float]) -> Motion:
+        start, modal = self.position, self.modal
+        end = list(start)
+        for axis, value in axes.items():
+            base = start[axis] if modal.relative else 0.0
+            if base is None:
+                self.certain = False
+            else:
+                end[axis] = base + value * modal.scale
+        goal = (end[0], end[1], end[2])
+        arc = modal.motion in (2, 3) and None not in start and None not in goal
+        points = tuple(self._arc(start, goal, centre)) if arc else (goal,)
+        for point in points:
+            self._enclose(point)
+        self.position = goal
+        length = _length(start, points)
+        return Motion(start, points, length, self._feed(start, goal, length))
+
+    def _feed(self, start: Place, end: Place, length: float) -> float:
+        modal = self.modal
+        if modal.motion == 0:
+            return math.inf
+        if modal.feed_mode == 93:
+            return modal.feed * length
+        feed = modal.feed * modal.scale
+        if start[2] is not None and end[2] is not None and end[2] < start[2] and feed:
+            self.plunge = min(self.plunge, feed)
+        return feed
+
+    def _enclose(self, point: Place) -> None:
+        low, high = self.low, self.high
+        for axis in range(3):
+            value = point[axis]
+            if value is None:
+                continue
+            least, most = low[axis], high[axis]
+            if least is None or value < least:
+                low[axis] = value
+            if most is None or value > most:
+                high[axis] = value
+
+    def _arc(self, start: Place, end: Place, centre: dict[str, float]) -> Iterator[Place]:
+        """Points along an arc, a degree apart at most, the end point last."""
+        u, v, w = _PLANES[self.modal.plane]
+        scale = self.modal.scale
+        a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
+        clockwise = self.modal.motion == 2
+        if "R" in centre:
+            radius = centre["R"] * scale * (1 if clockwise else -1)
+            cu, cv = _centre(a[u], a[v], b[u], b[v], radius)
+        else:
+            cu = a[u] + centre.get("IJK"[u], 0.0) * scale
+            cv = a[v] + centre.get("IJK"[v], 0.0) * scale
+        radius = math.hypot(a[u] - cu, a[v] - cv)
+        begin = math.atan2(a[v] - cv, a[u] - cu)
+        turn = -1.0 if clockwise else 1.0
+        sweep = turn * (math.atan2(b[v] - cv, b[u] - cu) - begin) % math.tau
+        sweep = turn * (sweep if sweep > FULL_CIRCLE_BELOW else math.tau)
+        steps = max(1, math.ceil(abs(sweep) / math.radians(1)))
+        for step in range(1, steps):
+            angle = begin + sweep * step / steps
+            point = [0.0, 0.0, 0.0]
+            point[u] = cu + radius * math.cos(angle)
+            point[v] = cv + radius * math.sin(angle)
+            point[w] = a[w] + (b[w] - a[w]) * step / steps
+            yield point[0], point[1], point[2]
+        yield end
+
+
+def _centre(x0: float, y0: float, x1: float, y1: float, radius: float) -> tuple[float, float]:
+    """Centre of the arc of signed radius: to the right of the chord where positive."""
+    chord = math.hypot(x1 - x0, y1 - y0) or 1.0
+    away = math.sqrt(max(radius**2 - chord**2 / 4, 0.0)) * math.copysign(1.0, radius)
+    return (
+        (x0 + x1) / 2 + away * (y1 - y0) / chord,
+        (y0 + y1) / 2 - away * (x1 - x0) / chord,
+    )
+
+
+def _length(start: Place, points: tuple[Place, ...]) -> float:
+    """Length of a polyline, over the axes known at both ends of each piece, mm."""
+    total, a = 0.0, start
+    for b in points:
+        square = 0.0
+        for p, q in zip(a, b, strict=True):
+            if p is not None and q is not None:
+                square += (q - p) ** 2
+        total += math.sqrt(square)
+        a = b
+    return total
