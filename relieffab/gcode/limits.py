@@ -99,9 +99,27 @@ class Limits:
         low = below & outside
         low[1:] |= below[:-1] & outside[1:]
         yield low, f"cuts outside the stock of {size[0]:g} x {size[1]:g} mm"
+        yield self._in_frame(points), "runs into the raised frame"
         sideways = np.zeros(len(points), bool)
         sideways[1:] = (np.abs(np.diff(points[:, :2], axis=0)) > SLACK).any(axis=1) & below[:-1]
         yield np.isinf(feed) & (below | sideways), "a rapid goes below the panel's face"
+
+    def _in_frame(self, points: Floats) -> NDArray[np.bool_]:
+        """Say which moves are lower than a raised frame, and not well inside it.
+
+        Outlines bulge nowhere inwards: a move stays inside if its ends are.
+        """
+        frame = self.stock.frame
+        if frame is None or frame.height < 0:
+            return np.zeros(len(points), bool)
+        x, y, z = points.T
+        low = z < self.stock.top - SLACK
+        keep = frame.width + self.cutter.radius - SLACK
+        inside = keep < self.stock.outline.room and self.stock.outline.inside(x, y, by=keep)
+        outside = np.logical_not(inside) & np.ones(len(points), bool)
+        for either in (low, outside):
+            either[1:] |= either[:-1].copy()
+        return low & outside
 
     def _feeds(self, points: Floats, feed: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
         # Along X and Y the feed itself must be one the axis can follow.  A slope

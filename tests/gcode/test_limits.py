@@ -1,8 +1,11 @@
 """The limits fire for what is beyond them and are silent at them."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from relieffab.cutter import Cutter
+from relieffab.fittings import Frame
 from relieffab.gcode.limits import Limits, travel_findings
 from relieffab.machine import Machine
 from relieffab.stock import Stock
@@ -39,6 +42,29 @@ def test_leaving_the_stock_below_its_face():
     (text,) = findings([[50, 1, 5], [99, 1, -1], [101, 1, 5]], [np.inf, 100, 100])[:1]
     assert "outside the stock" in text
     assert findings([[50, 1, 5], [99, 1, 0], [100, 1, 5]], [np.inf, 100, 100]) == ()
+
+
+def test_a_raised_frame_is_not_run_into():
+    stock = Stock(100.0, 80.0, 10.0, frame=Frame(10.0, 3.0))
+    framed = replace(LIMITS, stock=stock)
+
+    def found(*points):
+        feed, bites = np.full(len(points), 100.0), np.zeros(len(points))
+        return framed.findings(np.array(points, float), feed, bites)
+
+    # The cutter is 2 mm across: its axis stays 11 mm from the sides.
+    assert found([50, 40, 8], [11, 11, 8], [11, 11, -1], [89, 69, -1], [89, 69, 8], [0, 0, 8]) == ()
+    for bad in ([10.9, 40, -1], [50, 69.1, -1], [50, 5, 2.9]):
+        (text,) = found([50, 40, 8], [50, 40, -1], bad, [50, 40, 8])
+        assert "into the raised frame (2 moves, first at move 2)" in text
+    # Down on a slant, from over the frame.
+    assert "raised frame" in found([5, 40, 8], [20, 40, 1])[0]
+    sunk = replace(LIMITS, stock=replace(stock, frame=Frame(10.0, -3.0)))
+    assert not any(
+        "raised" in t for t in sunk.findings(np.array([[5.0, 5, 1]]), np.ones(1), np.zeros(1))
+    )
+    narrow = replace(LIMITS, stock=replace(stock, frame=Frame(39.5, 3.0)))
+    assert "raised frame" in narrow.findings(np.array([[50.0, 40, 1]]), np.ones(1), np.zeros(1))[0]
 
 
 def test_travel():
