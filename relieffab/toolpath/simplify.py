@@ -75,10 +75,4 @@ def simplify(trace: Trace, tolerance: float) -> Trace:
     along = np.concatenate([[0.0], np.cumsum(steps)])
     keep, out = np.zeros(len(trace), bool), np.zeros(len(trace))
     _funnel(along, trace.z, slack, trace.corner | last | first, keep, out)
-    return replace(
-        trace,
-        xy=trace.xy[keep],
-        z=out[keep],
-        run=trace.run[keep],
-        corner=trace.corner[keep],
-    )
+    return replace(trace, z=out).pick(keep)
