@@ -34,7 +34,8 @@ from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
-from relieffab.toolpath.plan import Settings, plan
+from relieffab.toolpath.plan import plan
+from relieffab.toolpath.settings import Settings
 
 Part = dict[str, Any]
 

@@ -39,15 +39,30 @@ class Trace:
         Which run each sample belongs to, ascending.
     corner : (n,) ndarray of bool
         Where the line may turn.
+    top : (n,) ndarray, optional
+        Height at which the cutter would first touch the stock, mm; NaN where nobody
+        has looked yet.
     """
 
     xy: Floats
     z: Floats
     run: Ints
     corner: Bools
+    top: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.z)
+
+    def pick(self, where: Bools) -> "Trace":
+        """Keep some samples."""
+        top = None if self.top is None else self.top[where]
+        return Trace(self.xy[where], self.z[where], self.run[where], self.corner[where], top)
+
+    def turned(self) -> "Trace":
+        """Go along every run the other way, in the order they are in."""
+        index = np.lexsort((-np.arange(len(self)), self.run))
+        top = None if self.top is None else self.top[index]
+        return Trace(self.xy[index], self.z[index], self.run[index], self.corner[index], top)
 
     @property
     def joined(self) -> Bools:
@@ -85,8 +100,25 @@ def sample(lines: Sequence[Floats], step: float) -> Trace:
     return Trace(points, np.zeros(len(points)), np.concatenate(run), np.concatenate(corner))
 
 
-def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float = SKIN) -> Trace:
+def follow(
+    terrain: Terrain,
+    cutter: Cutter,
+    trace: Trace,
+    *,
+    allowance: float = SKIN,
+    dropped: bool = False,
+) -> Trace:
     """Set a trace at its cutter locations and refine it until no chord can gouge.
+
+    Parameters
+    ----------
+    terrain : Terrain
+    cutter : Cutter
+    trace : Trace
+    allowance : float
+        mm.
+    dropped : bool
+        Whether `z` holds the cutter locations already.
 
     Returns
     -------
@@ -94,8 +126,8 @@ def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float =
         With samples added; `z` nowhere below the cutter-location surface, nor
         is any straight line between neighbours, to within micrometres sideways.
     """
-    x, y = trace.xy.T
-    trace = replace(trace, z=tip_heights(terrain, cutter, x, y, allowance=allowance))
+    if not dropped:
+        trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     while len(trace) > 1:
         split = np.flatnonzero((_doubt(trace) > _SAG) & (trace.steps > _SHORTEST))
         if split.size == 0:
@@ -107,6 +139,7 @@ def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float =
             np.insert(trace.z, split + 1, z),
             np.insert(trace.run, split + 1, trace.run[split]),
             np.insert(trace.corner, split + 1, False),
+            None if trace.top is None else np.insert(trace.top, split + 1, np.nan),
         )
     return trace
 

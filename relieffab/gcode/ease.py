@@ -1,0 +1,67 @@
+"""Cuts that would take too much at once, taken twice: first higher, then as planned."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
+from relieffab.machine import cutting
+from relieffab.toolpath.path import Toolpath
+
+Floats = NDArray[np.float64]
+
+_ROUNDS = 6
+
+
+def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
+    """Go over the places first where a pass would take more than the stepdown allows.
+
+    Planning knows the stock from samples, and a corner that one level left stands in
+    the way of the next.  Where a virtual stock shows such a bite, the cutter rises,
+    goes along the same moves higher, comes back the same way and then cuts as planned.
+    Nothing is cut that was not to be cut.  What cannot be eased is left to the writer,
+    which refuses it.
+
+    Parameters
+    ----------
+    path : Toolpath
+    setup : Setup
+    slab : Slab
+        The stock as the programs before leave it; not modified.
+
+    Returns
+    -------
+    Toolpath
+        The path itself where nothing was to be done.
+    """
+    limits = setup.limits(path.cutter)
+    use = cutting(path.cutter, setup.material, setup.machine)
+    for _ in range(_ROUNDS):
+        bites = slab.copy().cut(path.points, path.cutter)
+        bad = (bites > limits.deepest_pass) & np.isfinite(path.feed)
+        bad[0] = False
+        if not bad.any():
+            break
+        path = _twice(path, bites, bad, use.stepdown, min(use.plunge, use.feed))
+    return path
+
+
+def _twice(
+    path: Toolpath, bites: Floats, bad: NDArray[np.bool_], stepdown: float, feed: float
+) -> Toolpath:
+    """Insert a higher way there and back before each group of bad moves."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], bad, [False]]).astype(int)))
+    points, feeds, done = [], [], 0
+    for first, end in edges.reshape(-1, 2):
+        there = path.points[first - 1 : end] + np.array(
+            [0.0, 0.0, bites[first:end].max() - stepdown]
+        )
+        extra = np.concatenate([there, there[-2::-1], path.points[first - 1 : first]])
+        points += [path.points[done:first], extra]
+        feeds += [path.feed[done:first], np.full(len(extra), feed)]
+        done = first
+    points.append(path.points[done:])
+    feeds.append(path.feed[done:])
+    return replace(path, points=np.concatenate(points), feed=np.concatenate(feeds))
