@@ -15,7 +15,17 @@ from relieffab.job.settings import TABLE, Chosen, Setting, resolve
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
-TOOLPATH_SETTINGS = ("machine", "material", "rough", "finish", "lines", "stepover")
+TOOLPATH_SETTINGS = (
+    "machine",
+    "material",
+    "rough",
+    "finish",
+    "lines",
+    "stepover",
+    "scallop",
+    "rows",
+    "milling",
+)
 TEMPLATE_SETTINGS = ("paper",)
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (

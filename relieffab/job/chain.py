@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -33,7 +33,7 @@ from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
-from relieffab.toolpath.settings import Settings
+from relieffab.toolpath.settings import Milling, Settings
 
 Part = dict[str, Any]
 
@@ -67,6 +67,13 @@ def carving_of(job: Job) -> Carving:
     )
 
 
+def cut_settings(job: Job) -> Settings:
+    """Return how finely a job is cut, and which way round."""
+    angle, crossed = job.rows
+    milling = cast(Milling, job.milling)
+    return Settings(job.stepover, job.scallop, angle=angle, crossed=crossed, milling=milling)
+
+
 def check(job: Job) -> None:
     """Refuse what can be seen to fail before any work is done.
 
@@ -80,6 +87,7 @@ def check(job: Job) -> None:
     solids.check(job)
     cutters = cutters_of(job)
     check_tools(profiles.machine(job.machine), cutters, stock_of(job), job.depth)
+    cut_settings(job)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 
@@ -235,7 +243,7 @@ def plan_paths(
         profiles.material(job.material),
         cutters=cutters_of(job),
         stock=stock_of(job),
-        settings=Settings(stepover=job.stepover),
+        settings=cut_settings(job),
         progress=progress,
     )
 
