@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from relieffab.gcode.moves import stepped
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.machine import cutting
@@ -39,7 +40,9 @@ def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
     limits = setup.limits(path.cutter)
     use = cutting(path.cutter, setup.material, setup.machine)
     for _ in range(_ROUNDS):
-        bites = slab.copy().cut(path.points, path.cutter)
+        # As it will be written: a node at the cutter's rim is cut or not by a rounded step.
+        written = stepped(path.points, setup.stock, setup.post) / setup.post.per_mm
+        bites = slab.copy().cut(written + np.asarray(setup.stock.work_zero), path.cutter)
         bad = (bites > limits.deepest_pass) & np.isfinite(path.feed)
         bad[0] = False
         if not bad.any():

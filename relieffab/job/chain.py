@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -35,7 +35,7 @@ from relieffab.stock import Stock
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
-from relieffab.toolpath.settings import Settings
+from relieffab.toolpath.settings import Milling, Settings
 
 Part = dict[str, Any]
 
@@ -75,6 +75,13 @@ def setup_of(job: Job, depth: float) -> Setup:
     return Setup(machine, material, stock_of(job), depth, job.units)
 
 
+def cut_settings(job: Job) -> Settings:
+    """Return how finely a job is cut, and which way round."""
+    angle, crossed = job.rows
+    milling = cast(Milling, job.milling)
+    return Settings(job.stepover, job.scallop, angle=angle, crossed=crossed, milling=milling)
+
+
 def check(job: Job) -> None:
     """Refuse what can be seen to fail before any work is done.
 
@@ -89,6 +96,7 @@ def check(job: Job) -> None:
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
     check_tools(setup.machine, cutters, setup.stock, job.depth)
+    cut_settings(job)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 
@@ -244,7 +252,7 @@ def plan_paths(
         profiles.material(job.material),
         cutters=cutters_of(job),
         stock=stock_of(job),
-        settings=Settings(stepover=job.stepover),
+        settings=cut_settings(job),
         progress=progress,
     )
 

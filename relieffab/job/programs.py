@@ -15,7 +15,7 @@ from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
-from relieffab.gcode.write import write_program
+from relieffab.gcode.write import foretold, write_program
 from relieffab.job.chain import setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
@@ -81,7 +81,7 @@ def _eased(paths: Sequence[Toolpath], setup: Setup, slab: Slab) -> list[Toolpath
     trial, found = slab.copy(), []
     for path in paths:
         found.append(eased(path, setup, trial))
-        trial.cut(found[-1].points, path.cutter)
+        trial.cut(foretold(found[-1], setup).on_panel(setup.stock), path.cutter)
     return found
 
 

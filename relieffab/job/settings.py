@@ -118,6 +118,21 @@ def _part(text: Any) -> str:
     return part(str(text))
 
 
+def _rows(text: Any) -> tuple[float, bool]:
+    """Angle of the rows, and whether others cross them."""
+    named = {"along": (0.0, False), "across": (90.0, False), "both": (0.0, True)}
+    if str(text) in named:
+        return named[str(text)]
+    try:
+        return units.angle(text), False
+    except InputError as fault:
+        raise InputError(
+            "the rows' way is not known",
+            expected=f"{', '.join(named)}, or an angle as 30deg",
+            found=str(text),
+        ) from fault
+
+
 def _one_of(*words: str) -> Callable[[Any], str]:
     def read(text: Any) -> str:
         if text not in words:
@@ -191,6 +206,9 @@ SETTINGS = (
     Setting("finish", str, "tapered-ball-1", "finishing cutter"),
     Setting("lines", str, "tapered-ball-0.5", "cutter for lines and what finishing leaves"),
     Setting("stepover", _positive, "", "between finishing rows; from the scallop if not given"),
+    Setting("scallop", _positive, "0.01mm", "height of the ridges between rows, on slopes too"),
+    Setting("rows", _rows, "along", "of finishing: along X, across, both, or an angle"),
+    Setting("milling", _one_of("either", "climb", "conventional"), "either", "way of cutting"),
     Setting(
         "reachable",
         _one_of("no", "yes"),
@@ -266,6 +284,9 @@ class Job:
     finish: str
     lines: str
     stepover: float | None
+    scallop: float
+    rows: tuple[float, bool]
+    milling: str
     reachable: str
     units: Literal["mm", "in"]
     work_zero: str

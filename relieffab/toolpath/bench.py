@@ -92,7 +92,8 @@ class Bench:
         """Set a cutter before what is left."""
         grid = self.relief.grid
         # The skin makes every bump wider than this, so that none passes between two samples.
-        step = min(grid.pitch / 2, 0.2 * max(cutter.arc_end, 0.1))
+        narrow = cutter.points[1][0] if cutter.shape == "form" else cutter.arc_end
+        step = min(grid.pitch / 2, 0.2 * max(narrow, 0.1))
         stock = Terrain.over(grid, self.left)
         tolerance = self.settings.tolerance
         return Work(self.relief, stock, cutter, stepdown, SKIN, tolerance, least, step)

@@ -141,9 +141,7 @@ def runs_of(trace: Trace) -> list[Floats]:
 
 
 def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
-    """Follow straight lines from one run's end to the next one's start.
-
-    Earlier passes may not have been there, so that no line goes deeper than the first.
+    """Follow straight lines from one run's end to the next one's start, at the pass's depth.
 
     Parameters
     ----------
@@ -159,7 +157,7 @@ def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
         return []
     work = part.work
     low, top = work.follow(sample(pairs, work.step))
-    return runs_of(simplify(work.level(low, top, 1), work.tolerance))
+    return runs_of(simplify(work.level(low, top, part.number), work.tolerance))
 
 
 def _with_neighbours(picked: Bools, joined: Bools) -> Bools:

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from skimage.measure import approximate_polygon
 from skimage.morphology import skeletonize
 
-from relieffab.toolpath.envelope import nodes
+from relieffab.toolpath.envelope import nodes, tip_heights
 from relieffab.toolpath.passes import Work
 from relieffab.toolpath.waterline import length, to_panel
 
@@ -35,7 +35,9 @@ def creases(work: Work) -> list[Floats]:
     places = nodes(work.relief.grid)
     low = work.low(places)
     kinked = kinks(low) > KINK * work.relief.grid.pitch
-    kinked &= work.top(places) - low > work.least
+    x, y = places.xy()
+    top = tip_heights(work.stock, work.cutter, x[kinked], y[kinked])
+    kinked[kinked] = top - low[kinked] > work.least
     lines = [to_panel(approximate_polygon(line, _SMOOTH), places) for line in chains(kinked)]
     return [line for line in lines if length(line) >= _SHORTEST]
 

@@ -21,7 +21,7 @@ Ints = NDArray[np.intp]
 SKIN = 0.003
 """Least distance kept from the surface, mm: more than a program's rounded coordinates lose."""
 
-_SAG = 0.002
+_SAG = 0.0015
 _SHORTEST = 0.002
 
 
@@ -129,7 +129,12 @@ def follow(
     if not dropped:
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     while len(trace) > 1:
-        split = np.flatnonzero((_doubt(trace) > _SAG) & (trace.steps > _SHORTEST))
+        steps = trace.steps
+        # Where the way is steep a bend hides more height.
+        slope = np.abs(np.diff(trace.z)) / np.maximum(steps, _SHORTEST)
+        split = np.flatnonzero(
+            (_doubt(trace) > _SAG / np.maximum(slope, 1.0)) & (steps > _SHORTEST)
+        )
         if split.size == 0:
             return _lifted(trace)
         middle = 0.5 * (trace.xy[split] + trace.xy[split + 1])
