@@ -1,4 +1,4 @@
-"""Cuts that would take too much at once, taken twice: first higher, then as planned."""
+"""Cuts that would take too much at once, taken in several goes: first higher, then as planned."""
 
 from dataclasses import replace
 
@@ -21,7 +21,8 @@ def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
 
     Planning knows the stock from samples, and a corner that one level left stands in
     the way of the next.  Where a virtual stock shows such a bite, the cutter rises,
-    goes along the same moves higher, comes back the same way and then cuts as planned.
+    goes along the same moves higher and back, as often as it takes, and then cuts as
+    planned.
     Nothing is cut that was not to be cut.  What cannot be eased is left to the writer,
     which refuses it.
 
@@ -54,14 +55,16 @@ def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
 def _twice(
     path: Toolpath, bites: Floats, bad: NDArray[np.bool_], stepdown: float, feed: float
 ) -> Toolpath:
-    """Insert a higher way there and back before each group of bad moves."""
+    """Insert higher ways there and back, a stepdown apart, before each group of bad moves."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], bad, [False]]).astype(int)))
     points, feeds, done = [], [], 0
     for first, end in edges.reshape(-1, 2):
-        there = path.points[first - 1 : end] + np.array(
-            [0.0, 0.0, bites[first:end].max() - stepdown]
-        )
-        extra = np.concatenate([there, there[-2::-1], path.points[first - 1 : first]])
+        start, deepest = path.points[first - 1 : end], bites[first:end].max()
+        ways = [path.points[:0]]
+        for lift in np.arange(deepest - stepdown, 0.0, -stepdown):
+            there = start + np.array([0.0, 0.0, lift])
+            ways += [there, there[-2::-1]]
+        extra = np.concatenate([*ways, start[:1]])
         points += [path.points[done:first], extra]
         feeds += [path.feed[done:first], np.full(len(extra), feed)]
         done = first

@@ -44,6 +44,12 @@ def test_a_corner_that_stands_too_high():
     write_program(easier, SETUP, slab)
 
 
+def test_a_plunge_by_many_times_the_stepdown():
+    path = path_of([[3, 5, -4.5], [9, 5, -4.5]])
+    easier = eased(path, SETUP, Slab.whole(GRID, SETUP.stock))
+    write_program(easier, SETUP, Slab.whole(GRID, SETUP.stock))
+
+
 coordinates = st.tuples(st.floats(1, 14), st.floats(1, 9), st.floats(-4.5, 0.5))
 
 
