@@ -15,6 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "cutter": ["Cutter"],
         "errors": ["FindingsError", "InputError", "MachineError", "RelieffabError"],
+        "gcode.ease": ["eased"],
         "gcode.estimate": ["Pace", "estimate", "pace"],
         "gcode.read": ["read_program"],
         "gcode.setup": ["Setup"],
