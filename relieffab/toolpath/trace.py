@@ -131,15 +131,18 @@ def follow(
     if not dropped:
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     proved = np.zeros(max(len(trace) - 1, 0), bool)
+    # What a rounded tip may meet between two samples shows beside them; a corner's does not.
+    seen = _HIDDEN if cutter.shape in ("ball", "tapered ball") else 0.0
     while len(trace) > 1:
         steps = trace.steps
         # Where the way is steep a bend hides more height.
         slope = np.abs(np.diff(trace.z)) / np.maximum(steps, _SHORTEST)
         long = trace.joined & (steps > _SHORTEST)
-        split = long & (_doubt(trace) > _SAG / np.maximum(slope, 1.0))
+        doubt = _doubt(trace) * np.maximum(slope, 1.0)
+        split = long & (doubt > _SAG)
         looking = not split.any()
         if looking:
-            split = long & (slope > _GENTLE) & ~proved
+            split = long & (slope > _GENTLE) & (doubt >= seen) & ~proved
             if not split.any():
                 return _lifted(trace)
         at = np.flatnonzero(split)
