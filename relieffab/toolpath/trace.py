@@ -25,6 +25,7 @@ _SAG = 0.0015
 _SHORTEST = 0.002
 _GENTLE = 0.5
 _HIDDEN = 0.0005
+_SHOWN = 0.0001
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +133,7 @@ def follow(
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     proved = np.zeros(max(len(trace) - 1, 0), bool)
     # What a rounded tip may meet between two samples shows beside them; a corner's does not.
-    seen = _HIDDEN if cutter.shape in ("ball", "tapered ball") else 0.0
+    seen = _SHOWN if cutter.shape in ("ball", "tapered ball") else 0.0
     while len(trace) > 1:
         steps = trace.steps
         # Where the way is steep a bend hides more height.
