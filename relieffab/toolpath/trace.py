@@ -132,8 +132,8 @@ def follow(
     if not dropped:
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     proved = np.zeros(max(len(trace) - 1, 0), bool)
-    # What a rounded tip may meet between two samples shows beside them; a corner's does not.
-    seen = _SHOWN if cutter.shape in ("ball", "tapered ball") else 0.0
+    # What a ball may meet between two samples shows beside them; other shapes hide it.
+    seen = _SHOWN if cutter.shape == "ball" else 0.0
     while len(trace) > 1:
         steps = trace.steps
         # Where the way is steep a bend hides more height.
