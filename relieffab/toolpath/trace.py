@@ -24,6 +24,7 @@ SKIN = 0.003
 _SAG = 0.0015
 _SHORTEST = 0.002
 _GENTLE = 0.5
+_LEVEL = 0.05
 _HIDDEN = 0.0005
 _SHOWN = 0.0001
 
@@ -133,7 +134,7 @@ def follow(
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
     proved = np.zeros(max(len(trace) - 1, 0), bool)
     # What a ball may meet between two samples shows beside them; other shapes hide it.
-    seen = _SHOWN if cutter.shape == "ball" else 0.0
+    gentle, seen = (_GENTLE, _SHOWN) if cutter.shape == "ball" else (_LEVEL, 0.0)
     while len(trace) > 1:
         steps = trace.steps
         # Where the way is steep a bend hides more height.
@@ -143,7 +144,7 @@ def follow(
         split = long & (doubt > _SAG)
         looking = not split.any()
         if looking:
-            split = long & (slope > _GENTLE) & (doubt >= seen) & ~proved
+            split = long & (slope > gentle) & (doubt >= seen) & ~proved
             if not split.any():
                 return _lifted(trace)
         at = np.flatnonzero(split)
