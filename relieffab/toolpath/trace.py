@@ -23,6 +23,10 @@ SKIN = 0.003
 
 _SAG = 0.0015
 _SHORTEST = 0.002
+_GENTLE = 0.5
+_LEVEL = 0.05
+_HIDDEN = 0.0005
+_SHOWN = 0.0001
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,23 +132,36 @@ def follow(
     """
     if not dropped:
         trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
+    proved = np.zeros(max(len(trace) - 1, 0), bool)
+    # What a ball may meet between two samples shows beside them; other shapes hide it.
+    gentle, seen = (_GENTLE, _SHOWN) if cutter.shape == "ball" else (_LEVEL, 0.0)
     while len(trace) > 1:
         steps = trace.steps
         # Where the way is steep a bend hides more height.
         slope = np.abs(np.diff(trace.z)) / np.maximum(steps, _SHORTEST)
-        split = np.flatnonzero(
-            (_doubt(trace) > _SAG / np.maximum(slope, 1.0)) & (steps > _SHORTEST)
-        )
-        if split.size == 0:
-            return _lifted(trace)
-        middle = 0.5 * (trace.xy[split] + trace.xy[split + 1])
-        z = tip_heights(terrain, cutter, middle[:, 0], middle[:, 1], allowance=allowance)
+        long = trace.joined & (steps > _SHORTEST)
+        doubt = _doubt(trace) * np.maximum(slope, 1.0)
+        split = long & (doubt > _SAG)
+        looking = not split.any()
+        if looking:
+            split = long & (slope > gentle) & (doubt >= seen) & ~proved
+            if not split.any():
+                return _lifted(trace)
+        at = np.flatnonzero(split)
+        middle = 0.5 * (trace.xy[at] + trace.xy[at + 1])
+        z = tip_heights(terrain, cutter, *middle.T, allowance=allowance)
+        if looking:
+            above = z - 0.5 * (trace.z[at] + trace.z[at + 1]) > _HIDDEN
+            proved[at[~above]] = True
+            at, middle, z = at[above], middle[above], z[above]
+        proved[at] = False
+        proved = np.insert(proved, at, False)
         trace = Trace(
-            np.insert(trace.xy, split + 1, middle, axis=0),
-            np.insert(trace.z, split + 1, z),
-            np.insert(trace.run, split + 1, trace.run[split]),
-            np.insert(trace.corner, split + 1, False),
-            None if trace.top is None else np.insert(trace.top, split + 1, np.nan),
+            np.insert(trace.xy, at + 1, middle, axis=0),
+            np.insert(trace.z, at + 1, z),
+            np.insert(trace.run, at + 1, trace.run[at]),
+            np.insert(trace.corner, at + 1, False),
+            None if trace.top is None else np.insert(trace.top, at + 1, np.nan),
         )
     return trace
 

@@ -47,7 +47,7 @@ def deepest_gouge(relief, parts, cutter):
 
 
 @pytest.mark.parametrize("name", CUTTERS)
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5, deadline=None, derandomize=True)
 @given(
     heights=arrays(float, GRID.node_shape, elements=st.sampled_from([0.0, -0.3, -0.9, -1.6])),
     angle=st.sampled_from([0.0, 27.0, 90.0]),
