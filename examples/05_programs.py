@@ -20,7 +20,7 @@ def run(folder: Path, width: int = 512) -> Path:
     wood = rf.profiles.material("softwood")
     paths = rf.plan(relief, layers.strokes, machine, wood, stock=stock)
     setup, slab = rf.Setup(machine, wood, stock, relief.depth), rf.Slab.whole(relief.grid, stock)
-    programs = [rf.write_program(path, setup, slab) for path in paths]
+    programs = [rf.write_program(rf.eased(path, setup, slab), setup, slab) for path in paths]
     verdict = rf.verify(programs, [path.cutter for path in paths], relief, setup)
     if not verdict.ok:
         raise SystemExit("\n".join(verdict.findings))

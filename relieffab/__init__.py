@@ -16,6 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "cutter": ["Cutter"],
         "errors": ["FindingsError", "InputError", "MachineError", "RelieffabError"],
         "fittings": ["Edge", "Frame", "Hole", "Keyhole"],
+        "gcode.ease": ["eased"],
         "gcode.estimate": ["Pace", "estimate", "pace"],
         "gcode.read": ["read_program"],
         "gcode.setup": ["Setup"],

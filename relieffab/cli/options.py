@@ -17,7 +17,7 @@ from relieffab.job.table import TABLE, Setting
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
 TOOLPATH_SETTINGS = (
-    *("machine", "material", "rough", "finish", "lines", "stepover"),
+    *("machine", "material", "rough", "finish", "lines", "stepover", "scallop", "rows", "milling"),
     *("units", "work_zero", "work_zero_z", "plate", "cutter_change"),
 )
 TEMPLATE_SETTINGS = ("paper",)

@@ -43,6 +43,11 @@ class Limits:
     stock: Stock
     machine: Machine
 
+    @property
+    def deepest_pass(self) -> float:
+        """Most a move may take of what stands, mm."""
+        return self.stepdown * OVER + 0.01
+
     def findings(
         self, points: Floats, feed: Floats, bites: Floats, line: NDArray[np.int64] | None = None
     ) -> tuple[str, ...]:
@@ -83,9 +88,8 @@ class Limits:
             yield z < -bound - SLACK, f"cuts {words}: {lowest}"
 
     def _passes(self, bites: Floats) -> Iterator[tuple[NDArray[np.bool_], str]]:
-        allowed = self.stepdown * OVER + 0.01
         yield (
-            bites > allowed,
+            bites > self.deepest_pass,
             f"takes {bites.max():.3f} mm at once, where {self.cutter.name} may take "
             f"{self.stepdown:.3g} mm",
         )

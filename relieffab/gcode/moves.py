@@ -40,6 +40,14 @@ class Moves:
     centre: Ints
 
 
+def stepped(points: Floats, stock: Stock, post: Post) -> Ints:
+    """Round points on the panel to steps from work zero: X and Y to the nearest, Z up."""
+    scaled = (points - np.asarray(stock.work_zero)) * post.per_mm
+    steps: Ints = np.rint(scaled).astype(np.int64)
+    steps[:, 2] = np.ceil(scaled[:, 2] - 1e-6).astype(np.int64)
+    return steps
+
+
 def moves_of(toolpath: Toolpath, machine: Machine, stock: Stock, post: Post) -> Moves:
     """Round a toolpath to steps, with the way in and out at the safe height.
 
@@ -47,9 +55,7 @@ def moves_of(toolpath: Toolpath, machine: Machine, stock: Stock, post: Post) -> 
     cuts deeper.  Moves shorter than a step are left out, and level runs of chords
     that lie on a circle become arcs.
     """
-    scaled = (toolpath.points - np.asarray(stock.work_zero)) * post.per_mm
-    steps = np.rint(scaled).astype(np.int64)
-    steps[:, 2] = np.ceil(scaled[:, 2] - 1e-6).astype(np.int64)
+    steps = stepped(toolpath.points, stock, post)
     safe = int(np.ceil((machine.safe_height - stock.work_zero[2]) * post.per_mm - 1e-6))
     ends = steps[[0, -1]]
     ends[:, 2] = np.maximum(ends[:, 2], safe)

@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,8 @@ from relieffab.relief.store import to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
-from relieffab.toolpath.plan import Settings, plan
+from relieffab.toolpath.plan import plan
+from relieffab.toolpath.settings import Milling, Settings
 
 Part = dict[str, Any]
 
@@ -69,6 +70,13 @@ def setup_of(job: Job, depth: float) -> Setup:
     return Setup(machine, material, stock_of(job), depth, job.units)
 
 
+def cut_settings(job: Job) -> Settings:
+    """Return how finely a job is cut, and which way round."""
+    angle, crossed = job.rows
+    milling = cast(Milling, job.milling)
+    return Settings(job.stepover, job.scallop, angle=angle, crossed=crossed, milling=milling)
+
+
 def check(job: Job) -> None:
     """Refuse what can be seen to fail before any work is done.
 
@@ -83,6 +91,7 @@ def check(job: Job) -> None:
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
     check_tools(setup.machine, cutters, setup.stock, job.depth)
+    cut_settings(job)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
 
@@ -226,7 +235,7 @@ def plan_paths(
         profiles.material(job.material),
         cutters=cutters_of(job),
         stock=stock_of(job),
-        settings=Settings(stepover=job.stepover),
+        settings=cut_settings(job),
         progress=progress,
     )
 

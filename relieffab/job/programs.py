@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from relieffab.gcode.aids import outline_program, probe_program
+from relieffab.gcode.ease import eased
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.pacing import paced
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
-from relieffab.gcode.write import write_program
+from relieffab.gcode.write import foretold, write_program
 from relieffab.job.chain import setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
@@ -40,7 +41,7 @@ def write(
     setup = setup_of(job, relief.depth)
     slab = Slab.whole(relief.grid, setup.stock)
     fit = {path.name: paced(path, setup) for path in paths}
-    paths = [one.path for one in fit.values()]
+    paths = _eased([one.path for one in fit.values()], setup, slab)
     starving = [one.warning for one in fit.values() if one.warning]
     notes = [*material_notes(setup, paths), *starving]
     header = {**_origin(report), **_numbered(notes)}
@@ -73,6 +74,15 @@ def write(
         "material": {**asdict(setup.material), "notes": notes},
         "slab": asdict(setup.stock),
     }
+
+
+def _eased(paths: Sequence[Toolpath], setup: Setup, slab: Slab) -> list[Toolpath]:
+    """Ease each path on the stock that those before it leave."""
+    trial, found = slab.copy(), []
+    for path in paths:
+        found.append(eased(path, setup, trial))
+        trial.cut(foretold(found[-1], setup).on_panel(setup.stock), path.cutter)
+    return found
 
 
 def _aids(setup: Setup, job: Job, folder: Path) -> list[Part]:

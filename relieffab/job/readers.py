@@ -136,6 +136,21 @@ def part(text: Any) -> str:
     return names.part(str(text))
 
 
+def rows(text: Any) -> tuple[float, bool]:
+    """Read the angle of rows, degrees, and whether others cross them."""
+    named = {"along": (0.0, False), "across": (90.0, False), "both": (0.0, True)}
+    if str(text) in named:
+        return named[str(text)]
+    try:
+        return units.angle(text), False
+    except InputError as fault:
+        raise InputError(
+            "the rows' way is not known",
+            expected=f"{', '.join(named)}, or an angle as 30deg",
+            found=str(text),
+        ) from fault
+
+
 def one_of(*words: str) -> Callable[[Any], str]:
     """Make a reader of one of a few words."""
 

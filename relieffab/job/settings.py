@@ -54,6 +54,9 @@ class Job:
     finish: str
     lines: str
     stepover: float | None
+    scallop: float
+    rows: tuple[float, bool]
+    milling: str
     reachable: str
     units: Literal["mm", "in"]
     work_zero: str

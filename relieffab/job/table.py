@@ -106,6 +106,16 @@ SETTINGS = (
         "stepover", readers.positive, "", "between finishing rows; from the scallop if not given"
     ),
     Setting(
+        "scallop", readers.positive, "0.01mm", "height of the ridges between rows, on slopes too"
+    ),
+    Setting("rows", readers.rows, "along", "of finishing: along X, across, both, or an angle"),
+    Setting(
+        "milling",
+        readers.one_of("either", "climb", "conventional"),
+        "either",
+        "way of cutting: either, climb or conventional",
+    ),
+    Setting(
         "reachable",
         readers.one_of("no", "yes"),
         "no",

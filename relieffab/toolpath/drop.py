@@ -142,28 +142,36 @@ def _drop_on_cell(  # type: ignore[no-untyped-def]
     """Tip height at which the cutter at (cx, cy) rests on cell (i, j), or `best`.
 
     Its two facets, their diagonal, and its upper and left edge: the other two
-    belong to the neighbours.
+    belong to the neighbours.  On its plane without end a facet could hold the cutter
+    no lower; nor could its edges, which lie on that plane.
     """
     x0, y0 = j * pitch - cx, i * pitch - cy
     x1, y1 = x0 + pitch, y0 + pitch
     a, b = heights[i, j], heights[i, j + 1]
     c, d = heights[i + 1, j], heights[i + 1, j + 1]
-    for x, y, z in ((x1, y0, b), (x0, y1, c), (x1, y1, d)):
-        best = drop_on_edge(best, x0, y0, a, x, y, z, outline)
+    both, before = 0, best
     for side in range(2):
         gx = (d - c) / pitch if side == 0 else (b - a) / pitch
         gy = (c - a) / pitch if side == 0 else (d - b) / pitch
         slope = sqrt(gx * gx + gy * gy)
-        px, py, r = 0.0, 0.0, 0.0
+        px, py, fall = 0.0, 0.0, 0.0
         if slope > 0.0:
             r = touch(outline, slope)
-            px, py = r * gx / slope, r * gy / slope
+            px, py, fall = r * gx / slope, r * gy / slope, height_at(outline, r)
+        contact = a + gx * (px - x0) + gy * (py - y0) - fall
+        if contact <= before:
+            continue
+        both += 1
         u, v = (py - y0) / pitch, (px - x0) / pitch
         above = u - v if side == 0 else v - u
         if above >= -_INSIDE and min(u, v) >= -_INSIDE and max(u, v) <= 1.0 + _INSIDE:
-            height = a + gx * (px - x0) + gy * (py - y0)
-            contact = height - height_at(outline, r)
             best = max(best, contact)
+        elif side == 0:
+            best = drop_on_edge(best, x0, y0, a, x0, y1, c, outline)
+        else:
+            best = drop_on_edge(best, x0, y0, a, x1, y0, b, outline)
+    if both == 2:
+        best = drop_on_edge(best, x0, y0, a, x1, y1, d, outline)
     return best
 
 

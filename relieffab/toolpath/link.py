@@ -19,6 +19,11 @@ Floats = NDArray[np.float64]
 CLEARANCE = 0.5
 """Height above the face where a rapid down ends, mm."""
 
+HOP = 0.5
+"""Height above the face of short ways from cut to cut, mm."""
+
+_SHORT = 30.0
+
 _RAMP = 0.15
 _SHORTEST_RAMP = 0.3
 
@@ -90,6 +95,8 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
     moves: list[tuple[Floats, bool]] = []
     safe = linking.machine.safe_height
     for part in parts:
+        if not part.runs:
+            continue
         runs, ceilings = _in_order(part, moves[-1][0][-1] if moves else np.zeros(3))
         joins = _joins(part, runs, linking.reach)
         for k, run in enumerate(runs):
@@ -110,6 +117,8 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
 
 def _in_order(part: Pass, here: Floats) -> tuple[list[Floats], list[float]]:
     """Turn a pass's runs the way they are cut, with the stock's height at their starts."""
+    if part.fixed:
+        return part.runs, [float(z) for z in part.ceiling[:, 0]]
     order, turned = arrange(part.runs, here)
     pairs = list(zip(order, turned, strict=True))
     runs = [part.runs[k][::-1] if back else part.runs[k] for k, back in pairs]
@@ -126,8 +135,13 @@ def _joins(part: Pass, runs: list[Floats], reach: float) -> dict[int, Floats]:
 
 
 def _approach(run: Floats, here: Floats | None, safe: float) -> Floats:
-    """Retract from here, cross at the safe height and come down above a run's start."""
+    """Retract from here, cross and come down above a run's start.
+
+    Short ways stay within the figure, over a face known to be flat: a hop is enough.
+    """
     x, y, z = run[0]
+    if here is not None and np.hypot(x - here[0], y - here[1]) <= _SHORT:
+        safe = min(safe, HOP)
     down = [[x, y, safe], [x, y, max(CLEARANCE, z)]]
     return np.array(down if here is None else [[here[0], here[1], safe], *down])
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
-from relieffab.toolpath.envelope import Terrain, tip_heights
+from relieffab.toolpath.envelope import Places, Terrain, tip_heights, tip_surface
 from relieffab.toolpath.simplify import simplify
 from relieffab.toolpath.trace import Trace, follow, sample
 
@@ -45,8 +45,18 @@ class Work:
     least: float
     step: float
 
-    def follow(self, trace: Trace) -> tuple[Trace, Floats]:
-        """Set a trace at its cutter locations.
+    def low(self, places: Places) -> Floats:
+        """(rows, count) cutter locations at rows of places, mm."""
+        return tip_surface(self.relief, self.cutter, places, allowance=self.allowance)
+
+    def top(self, places: Places) -> Floats:
+        """(rows, count) heights at which the cutter would first touch the stock, mm."""
+        if not self.stock.heights.any():
+            return np.zeros((places.rows, places.count))
+        return tip_surface(self.stock, self.cutter, places)
+
+    def follow(self, trace: Trace, *, dropped: bool = False) -> tuple[Trace, Floats]:
+        """Set a trace at its cutter locations, where it is not `dropped` there already.
 
         Returns
         -------
@@ -55,8 +65,14 @@ class Work:
         ndarray
             (n,) height at which the cutter would first touch the stock, mm.
         """
-        low = follow(self.relief, self.cutter, trace, allowance=self.allowance)
-        return low, tip_heights(self.stock, self.cutter, low.xy[:, 0], low.xy[:, 1])
+        low = follow(self.relief, self.cutter, trace, allowance=self.allowance, dropped=dropped)
+        top = np.full(len(low), np.nan) if low.top is None else low.top.copy()
+        new = np.isnan(top)
+        if not self.stock.heights.any():
+            top[new] = 0.0
+        else:
+            top[new] = tip_heights(self.stock, self.cutter, *low.xy[new].T)
+        return low, top
 
     def level(self, low: Trace, top: Floats, number: int) -> Trace:
         """Hold a trace above what pass `number` (from 1) may reach."""
@@ -76,41 +92,46 @@ class Pass:
         Positions of the tip, mm.
     ceiling : (runs, 2) ndarray
         Where the stock may still stand at each run's start and end, mm.
+    fixed : bool
+        Whether the runs keep their order and direction.
     """
 
     work: Work
     number: int
     runs: list[Floats]
     ceiling: Floats
+    fixed: bool = False
 
 
-def passes(work: Work, low: Trace, top: Floats) -> Iterator[Pass]:
+def passes(work: Work, low: Trace, top: Floats, *, fixed: bool = False) -> Iterator[Pass]:
     """Cut a followed trace into passes, the highest first."""
     above = top - low.z
-    number = 0
-    while True:
-        worth = above > max(work.least, number * work.stepdown * (1 + 1e-9))
-        number += 1
-        if not worth.any():
-            return
+    number = 1
+    while (above > _worth(work, number)).any():
         # A sliver under a fiftieth of the stepdown rides along with the pass before it.
         if number > 1 and above.max() < (number - 1 + 0.02) * work.stepdown:
             return
-        picked = _with_neighbours(worth, low.joined)
-        run = np.cumsum(np.insert(~(low.joined & picked[1:] & picked[:-1]), 0, True), dtype=np.intp)
-        level = work.level(low, top, number)
-        part = replace(
-            level,
-            xy=level.xy[picked],
-            z=level.z[picked],
-            run=run[picked],
-            corner=level.corner[picked],
-        )
-        before = (top - (number - 1) * work.stepdown)[picked]
-        breaks = np.diff(part.run) > 0
-        starts, ends = np.insert(breaks, 0, True), np.append(breaks, True)
-        ceiling = np.column_stack([before[starts], before[ends]])
-        yield Pass(work, number, runs_of(simplify(part, work.tolerance)), ceiling)
+        yield one_pass(work, low, top, number, fixed=fixed)
+        number += 1
+
+
+def _worth(work: Work, number: int) -> float:
+    """Least height of stock over the relief that a pass is worth a move for, mm."""
+    return max(work.least, (number - 1) * work.stepdown * (1 + 1e-9))
+
+
+def one_pass(work: Work, low: Trace, top: Floats, number: int, *, fixed: bool = False) -> Pass:
+    """Take from a followed trace what pass `number` has to cut."""
+    picked = _with_neighbours(top - low.z > _worth(work, number), low.joined)
+    run = np.cumsum(np.insert(~(low.joined & picked[1:] & picked[:-1]), 0, True), dtype=np.intp)
+    part = replace(work.level(low, top, number), run=run).pick(picked)
+    before = (top - (number - 1) * work.stepdown)[picked]
+    breaks = np.diff(part.run) > 0
+    starts, ends = np.insert(breaks, 0, True), np.append(breaks, True)
+    if not picked.any():
+        return Pass(work, number, [], np.zeros((0, 2)), fixed)
+    ceiling = np.column_stack([before[starts], before[ends]])
+    return Pass(work, number, runs_of(simplify(part, work.tolerance)), ceiling, fixed)
 
 
 def runs_of(trace: Trace) -> list[Floats]:
@@ -120,9 +141,7 @@ def runs_of(trace: Trace) -> list[Floats]:
 
 
 def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
-    """Follow straight lines from one run's end to the next one's start.
-
-    Earlier passes may not have been there, so that no line goes deeper than the first.
+    """Follow straight lines from one run's end to the next one's start, at the pass's depth.
 
     Parameters
     ----------
@@ -138,7 +157,7 @@ def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
         return []
     work = part.work
     low, top = work.follow(sample(pairs, work.step))
-    return runs_of(simplify(work.level(low, top, 1), work.tolerance))
+    return runs_of(simplify(work.level(low, top, part.number), work.tolerance))
 
 
 def _with_neighbours(picked: Bools, joined: Bools) -> Bools:

@@ -1,6 +1,6 @@
 """What a cutter leaves standing: the stock's height at the relief's nodes."""
 
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,27 +9,142 @@ from relieffab.compiled import kernel
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.outline import height_at, outline_of, radius_at
+from relieffab.toolpath.trace import Trace
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_END = 40
+_BITE = 0.001
+_SAG = 0.002
+
+
+@kernel
+def _place(stock, x, y, z, pitch, outline, enough):  # type: ignore[no-untyped-def]
+    """Set the cutter on one place and take off the nodes what it takes; give the most.
+
+    With `enough` finite nothing is taken off: it only looks until it finds so much.
+    """
+    rows, cols = stock.shape
+    reach = radius_at(outline, -z)
+    low = max(int(np.ceil((y - reach) / pitch)), 0)
+    high = min(int(np.floor((y + reach) / pitch)), rows - 1)
+    middle = min(max(int(y / pitch), low), high)
+    most = 0.0
+    # From the row under the axis outwards.
+    for n in range(2 * max(high - middle, middle - low) + 1):
+        i = middle + (n + 1) // 2 if n % 2 else middle - n // 2
+        if i < low or i > high:
+            continue
+        dy = i * pitch - y
+        half = sqrt(max(reach * reach - dy * dy, 0.0))
+        left = max(int(np.ceil((x - half) / pitch)), 0)
+        right = min(int(np.floor((x + half) / pitch)), cols - 1)
+        for j in range(left, right + 1):
+            if stock[i, j] <= z:
+                continue
+            dx = j * pitch - x
+            r = min(sqrt(dx * dx + dy * dy), reach)
+            height = z + height_at(outline, r)
+            if height < stock[i, j]:
+                most = max(most, stock[i, j] - height)
+                if enough == inf:
+                    stock[i, j] = height
+                elif most > enough:
+                    return most
+    return most
 
 
 @kernel
 def _carve(stock, x, y, z, pitch, outline):  # type: ignore[no-untyped-def]
-    rows, cols = stock.shape
     for k in range(x.size):
-        reach = radius_at(outline, -z[k])
-        low = max(int(np.ceil((y[k] - reach) / pitch)), 0)
-        high = min(int(np.floor((y[k] + reach) / pitch)), rows - 1)
-        for i in range(low, high + 1):
-            dy = i * pitch - y[k]
-            half = sqrt(max(reach * reach - dy * dy, 0.0))
-            left = max(int(np.ceil((x[k] - half) / pitch)), 0)
-            right = min(int(np.floor((x[k] + half) / pitch)), cols - 1)
-            for j in range(left, right + 1):
-                dx = j * pitch - x[k]
-                r = min(sqrt(dx * dx + dy * dy), reach)
-                height = z[k] + height_at(outline, r)
-                stock[i, j] = min(stock[i, j], height)
+        _place(stock, x[k], y[k], z[k], pitch, outline, inf)
+
+
+@kernel
+def _trim(stock, x, y, z, pitch, outline, apart, worth, start, stop):  # type: ignore[no-untyped-def]
+    """Carve a stretch from its middle outwards; its ends are worth it up to the last bite."""
+    half = min(_END, (stop - start) // 2)
+    low, high = start + half, stop - half
+    last = low
+    for k in range(low, high):
+        square = (x[k] - x[last]) ** 2 + (y[k] - y[last]) ** 2 + (z[k] - z[last]) ** 2
+        if k == low or square >= apart * apart:
+            _place(stock, x[k], y[k], z[k], pitch, outline, inf)
+            last = k
+    if low == high:
+        high -= 1
+    first, last = low, high - 1
+    for k in range(high, stop):
+        if _place(stock, x[k], y[k], z[k], pitch, outline, inf) > _BITE:
+            last = k
+    for k in range(low - 1, start - 1, -1):
+        if _place(stock, x[k], y[k], z[k], pitch, outline, inf) > _BITE:
+            first = k
+    worth[start:first] = False
+    worth[last + 1 : stop] = False
+
+
+@kernel
+def _carve_runs(stock, x, y, z, run, pitch, outline, least, apart, worth):  # type: ignore[no-untyped-def]
+    first = 0
+    while first < x.size:
+        last = first
+        while last < x.size and run[last] == run[first]:
+            if z[last] < 0.0:
+                worth[last] = (
+                    _place(stock, x[last], y[last], z[last], pitch, outline, least) > least
+                )
+            last += 1
+        k = first
+        while k < last:
+            start = k
+            while k < last and worth[k]:
+                k += 1
+            if k > start:
+                _trim(stock, x, y, z, pitch, outline, apart, worth, start, k)
+            k += 1
+        first = last
+
+
+def worthwhile(
+    stock: Floats, grid: Grid, cutter: Cutter, trace: Trace, *, least: float
+) -> tuple[Bools, Floats]:
+    """Go along a trace run by run and tell where it takes something off what is left.
+
+    Parameters
+    ----------
+    stock : (rows + 1, cols + 1) ndarray
+        Heights at the grid's nodes, mm, none above 0; not modified.
+    grid : Grid
+    cutter : Cutter
+    trace : Trace
+    least : float
+        Less than this off every node is not worth a move, mm.
+
+    Returns
+    -------
+    (n,) ndarray of bool
+        Which samples are worth a move, after all the runs before theirs.
+    (rows + 1, cols + 1) ndarray
+        What is left once the cutter has stood at those.
+    """
+    left = np.array(stock, dtype=np.float64)
+    row, col = grid.to_index(*trace.xy.T)
+    worth = np.zeros(len(trace), np.bool_)
+    _carve_runs(
+        left,
+        col * grid.pitch,
+        row * grid.pitch,
+        np.ascontiguousarray(trace.z),
+        trace.run,
+        grid.pitch,
+        outline_of(cutter),
+        least,
+        sqrt(8 * _SAG * (cutter.tip_radius or cutter.flat_radius)),
+        worth,
+    )
+    return worth, left
 
 
 def after(stock: Floats, grid: Grid, cutter: Cutter, tips: Floats) -> Floats:

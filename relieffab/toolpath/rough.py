@@ -1,18 +1,22 @@
 """Roughing: most of the stock, in levels, with an allowance left for finishing."""
 
+from math import ceil
+
 import numpy as np
 
 from relieffab.cutter import Cutter
-from relieffab.toolpath.envelope import Terrain
-from relieffab.toolpath.passes import Work
-from relieffab.toolpath.raster import rows, standing
-from relieffab.toolpath.trace import Trace
+from relieffab.toolpath.envelope import Places, Terrain
+from relieffab.toolpath.passes import Pass, Work, one_pass
+from relieffab.toolpath.trace import sample
+from relieffab.toolpath.waterline import offsets
 
 STEPOVER = 0.4
-"""Of the cutter's diameter."""
+"""Of the cutter's diameter: between two lines nothing stays, in corners little."""
 
 _TOLERANCE = 0.02
 _LEAST = 0.1
+_LATTICE = 0.05
+_SLIVER = 0.02
 
 
 def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: float) -> Work:
@@ -30,9 +34,27 @@ def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: floa
     return Work(relief, slab, cutter, stepdown, allowance, _TOLERANCE, _LEAST, step)
 
 
-def rough_rows(work: Work) -> Trace:
-    """Lay roughing rows over the figure."""
-    grid = work.relief.grid
-    reach = work.cutter.radius / grid.pitch
-    where = standing(work.relief.heights, work.stock.heights, work.least, reach)
-    return rows(grid, where, STEPOVER * work.cutter.diameter, work.step)
+def rough_passes(work: Work, *, reverse: bool = False) -> list[Pass]:
+    """Clear level after level, each from the middle of its patches outwards.
+
+    A level is cleared where something stands above it, and nowhere else; where the
+    relief itself lies between this level and the last, the cutter follows it.
+
+    Parameters
+    ----------
+    work : Work
+    reverse : bool
+        Conventional milling instead of climb milling.
+    """
+    grid, step = work.relief.grid, _LATTICE * work.cutter.diameter
+    rows, count = (ceil(side * grid.pitch / step) + 1 for side in grid.shape)
+    places = Places(grid.origin, 0.0, step, step, rows, count)
+    above = work.top(places) - work.low(places)
+    found: list[Pass] = []
+    while above.max() > max(work.least, (len(found) + _SLIVER) * work.stepdown):
+        worth = max(work.least, len(found) * work.stepdown)
+        lines = offsets(above > worth, places, STEPOVER * work.cutter.diameter)
+        lines = [line[::-1] for line in lines] if reverse else lines
+        low, top = work.follow(sample(lines, work.step))
+        found.append(one_pass(work, low, top, len(found) + 1, fixed=True))
+    return found

@@ -85,13 +85,7 @@ def simplify(trace: Trace, tolerance: float) -> Trace:
     if len(trace) < 2:
         return trace
     keep, out = _thinned(trace.xy, trace.z, trace.joined, trace.corner, tolerance)
-    return replace(
-        trace,
-        xy=trace.xy[keep],
-        z=out[keep],
-        run=trace.run[keep],
-        corner=trace.corner[keep],
-    )
+    return replace(trace, z=out).pick(keep)
 
 
 def thin(path: Toolpath, tolerance: float) -> Toolpath:

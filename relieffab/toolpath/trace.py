@@ -21,8 +21,12 @@ Ints = NDArray[np.intp]
 SKIN = 0.003
 """Least distance kept from the surface, mm: more than a program's rounded coordinates lose."""
 
-_SAG = 0.002
+_SAG = 0.0015
 _SHORTEST = 0.002
+_GENTLE = 0.5
+_LEVEL = 0.05
+_HIDDEN = 0.0005
+_SHOWN = 0.0001
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +43,30 @@ class Trace:
         Which run each sample belongs to, ascending.
     corner : (n,) ndarray of bool
         Where the line may turn.
+    top : (n,) ndarray, optional
+        Height at which the cutter would first touch the stock, mm; NaN where nobody
+        has looked yet.
     """
 
     xy: Floats
     z: Floats
     run: Ints
     corner: Bools
+    top: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.z)
+
+    def pick(self, where: Bools) -> "Trace":
+        """Keep some samples."""
+        top = None if self.top is None else self.top[where]
+        return Trace(self.xy[where], self.z[where], self.run[where], self.corner[where], top)
+
+    def turned(self) -> "Trace":
+        """Go along every run the other way, in the order they are in."""
+        index = np.lexsort((-np.arange(len(self)), self.run))
+        top = None if self.top is None else self.top[index]
+        return Trace(self.xy[index], self.z[index], self.run[index], self.corner[index], top)
 
     @property
     def joined(self) -> Bools:
@@ -85,8 +104,25 @@ def sample(lines: Sequence[Floats], step: float) -> Trace:
     return Trace(points, np.zeros(len(points)), np.concatenate(run), np.concatenate(corner))
 
 
-def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float = SKIN) -> Trace:
+def follow(
+    terrain: Terrain,
+    cutter: Cutter,
+    trace: Trace,
+    *,
+    allowance: float = SKIN,
+    dropped: bool = False,
+) -> Trace:
     """Set a trace at its cutter locations and refine it until no chord can gouge.
+
+    Parameters
+    ----------
+    terrain : Terrain
+    cutter : Cutter
+    trace : Trace
+    allowance : float
+        mm.
+    dropped : bool
+        Whether `z` holds the cutter locations already.
 
     Returns
     -------
@@ -94,19 +130,38 @@ def follow(terrain: Terrain, cutter: Cutter, trace: Trace, *, allowance: float =
         With samples added; `z` nowhere below the cutter-location surface, nor
         is any straight line between neighbours, to within micrometres sideways.
     """
-    x, y = trace.xy.T
-    trace = replace(trace, z=tip_heights(terrain, cutter, x, y, allowance=allowance))
+    if not dropped:
+        trace = replace(trace, z=tip_heights(terrain, cutter, *trace.xy.T, allowance=allowance))
+    proved = np.zeros(max(len(trace) - 1, 0), bool)
+    # What a ball may meet between two samples shows beside them; other shapes hide it.
+    gentle, seen = (_GENTLE, _SHOWN) if cutter.shape == "ball" else (_LEVEL, 0.0)
     while len(trace) > 1:
-        split = np.flatnonzero((_doubt(trace) > _SAG) & (trace.steps > _SHORTEST))
-        if split.size == 0:
-            return _lifted(trace)
-        middle = 0.5 * (trace.xy[split] + trace.xy[split + 1])
-        z = tip_heights(terrain, cutter, middle[:, 0], middle[:, 1], allowance=allowance)
+        steps = trace.steps
+        # Where the way is steep a bend hides more height.
+        slope = np.abs(np.diff(trace.z)) / np.maximum(steps, _SHORTEST)
+        long = trace.joined & (steps > _SHORTEST)
+        doubt = _doubt(trace) * np.maximum(slope, 1.0)
+        split = long & (doubt > _SAG)
+        looking = not split.any()
+        if looking:
+            split = long & (slope > gentle) & (doubt >= seen) & ~proved
+            if not split.any():
+                return _lifted(trace)
+        at = np.flatnonzero(split)
+        middle = 0.5 * (trace.xy[at] + trace.xy[at + 1])
+        z = tip_heights(terrain, cutter, *middle.T, allowance=allowance)
+        if looking:
+            above = z - 0.5 * (trace.z[at] + trace.z[at + 1]) > _HIDDEN
+            proved[at[~above]] = True
+            at, middle, z = at[above], middle[above], z[above]
+        proved[at] = False
+        proved = np.insert(proved, at, False)
         trace = Trace(
-            np.insert(trace.xy, split + 1, middle, axis=0),
-            np.insert(trace.z, split + 1, z),
-            np.insert(trace.run, split + 1, trace.run[split]),
-            np.insert(trace.corner, split + 1, False),
+            np.insert(trace.xy, at + 1, middle, axis=0),
+            np.insert(trace.z, at + 1, z),
+            np.insert(trace.run, at + 1, trace.run[at]),
+            np.insert(trace.corner, at + 1, False),
+            None if trace.top is None else np.insert(trace.top, at + 1, np.nan),
         )
     return trace
 

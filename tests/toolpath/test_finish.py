@@ -16,7 +16,7 @@ def test_ridges_of_a_ball_have_the_height_asked_for():
 
 def test_the_stepover_has_bounds():
     tiny = Cutter("c", "ball", 0.1, 9.0, 1.0, 800.0, 200.0, 9000.0)
-    huge = Cutter("c", "ball", 20.0, 9.0, 1.0, 800.0, 200.0, 9000.0)
-    assert scallop_stepover(tiny, 0.001) == 0.08
-    assert scallop_stepover(huge, 0.01) == 0.5
+    assert scallop_stepover(tiny, 0.001) == 0.02
+    assert scallop_stepover(tiny, 9.0) == pytest.approx(0.1)
     assert scallop_stepover(profiles.cutter("vee-30")) == 0.08
+    assert scallop_stepover(profiles.cutter("flat-6")) == pytest.approx(0.6)

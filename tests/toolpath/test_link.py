@@ -7,8 +7,8 @@ from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.machine import Cutting, Machine
 from relieffab.toolpath.envelope import Terrain, tip_heights
-from relieffab.toolpath.link import CLEARANCE, Linking, arrange, link
-from relieffab.toolpath.passes import Work, passes
+from relieffab.toolpath.link import CLEARANCE, HOP, Linking, arrange, link
+from relieffab.toolpath.passes import Pass, Work, passes
 from relieffab.toolpath.trace import SKIN, sample
 
 GRID = Grid(100, 160, 0.1, (0.0, 10.0))
@@ -47,7 +47,7 @@ def test_no_rapid_goes_below_the_face(motion):
     down = rapid[1:] & (np.diff(points[:, 2]) < 0)
     across = rapid[1:] & (np.hypot(*np.diff(points[:, :2], axis=0).T) > 0)
     assert not (down & across).any()
-    assert points[:-1][across, 2].min() == 4.0
+    assert points[:-1][across, 2].min() >= HOP
 
 
 def test_no_cutting_move_passes_below_the_cutter_locations(motion):
@@ -67,6 +67,17 @@ def test_descents_keep_to_the_plunge_feed(motion):
     assert feed[np.isfinite(feed)].max() == USE.feed
 
 
+def test_long_ways_are_made_at_the_safe_height_and_short_ones_in_a_hop():
+    slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
+    work = Work(slab, slab, FLAT, 1.0, SKIN, 0.004, 0.02, 0.05)
+    runs = [np.array([[x, 0.0, -1.0], [x + 1.0, 0.0, -1.0]]) for x in (0.0, 9.0, 60.0)]
+    part = Pass(work, 1, runs, np.zeros((3, 2)), fixed=True)
+    points, feed = link([part], Linking(MACHINE, USE, reach=2.0))
+    steps = np.hypot(*np.diff(points[:, :2], axis=0).T)
+    crossing = np.isinf(feed[1:]) & (steps > 0)
+    assert points[1:][crossing].tolist() == [[9.0, 0.0, HOP], [60.0, 0.0, 4.0]]
+
+
 @pytest.mark.parametrize(("ramp", "least", "most"), [(False, 1.4, 1.5), (True, 0.0, 0.1)])
 def test_entries_into_the_stock_are_ramps_where_asked(ramp, least, most):
     _, points, feed = motion_of(2.0, ramp)
@@ -80,7 +91,7 @@ def test_entries_into_the_stock_are_ramps_where_asked(ramp, least, most):
 
 def test_neighbouring_rows_are_joined_without_a_retract(motion):
     _, points, feed = motion
-    retracts = (np.isinf(feed) & (points[:, 2] == 4.0)).sum() // 2
+    retracts = (np.isinf(feed) & (points[:, 2] >= HOP)).sum() // 2
     assert retracts <= 10
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.ndimage import maximum_filter
 
 from relieffab import profiles
 from relieffab.errors import InputError
@@ -9,8 +10,9 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
-from relieffab.toolpath.plan import Settings, plan
+from relieffab.toolpath.plan import plan
 from relieffab.toolpath.remains import after
+from relieffab.toolpath.settings import Settings
 
 GRID = Grid.on_panel((30.0, 24.0), (250, 200))
 DEPTH = 2.0
@@ -114,6 +116,39 @@ def test_stock_is_checked():
         plan(figure(), (), profiles.machine(), profiles.material(), stock=Stock(30.0, 24.0, 1.5))
 
 
-def test_settings_are_checked():
-    with pytest.raises(InputError, match="tolerance cannot be 0"):
-        Settings(tolerance=0.0)
+@pytest.mark.parametrize("milling", ["climb", "conventional"])
+def test_rows_cut_one_way_keep_the_stock_on_one_side(milling):
+    relief = figure()
+    settings = Settings(stepover=0.4, milling=milling)
+    paths = plan(relief, (), profiles.machine(), profiles.material(), settings=settings)
+    finish = paths[1]
+    steps = np.diff(finish.points, axis=0)[np.isfinite(finish.feed[1:])]
+    ways = steps[np.abs(steps[:, 1]) < 1e-9, 0]
+    along = ways[ways > 0].sum() / np.abs(ways).sum()
+    # Rows go from the far edge to the near one, with what is to be cut on the near side.
+    assert along > 0.9 if milling == "climb" else along < 0.1
+
+
+def test_rows_may_go_at_an_angle_and_across_themselves():
+    relief = figure()
+    settings = Settings(stepover=0.4, angle=30.0, crossed=True)
+    paths = plan(relief, (), profiles.machine(), profiles.material(), settings=settings)
+    steps = np.diff(paths[1].points, axis=0)[np.isfinite(paths[1].feed[1:])]
+    steps = steps[np.hypot(steps[:, 0], steps[:, 1]) > 0.5]
+    angles = np.degrees(np.arctan2(steps[:, 1], steps[:, 0])) % 180
+    assert (np.abs(angles - 30) < 1).mean() > 0.4
+    assert (carved(relief, paths) - relief.heights).min() > -0.005
+
+
+def test_the_finest_cutter_visits_only_what_the_one_before_could_not_reach(planned):
+    relief, _ = planned
+    paths = plan(relief, (), profiles.machine(), profiles.material())
+    before = carved(relief, paths[:2]) - relief.heights
+    tips = paths[2].points[np.isfinite(paths[2].feed)]
+    row, col = GRID.to_index(tips[:, 0], tips[:, 1])
+    reach = 0.6 / GRID.pitch
+    near = maximum_filter(before, size=2 * round(reach) + 1)
+    low = tips[:, 2] < -0.05
+    seen = near[np.rint(row[low]).astype(int), np.rint(col[low]).astype(int)]
+    assert (seen > 0.03).mean() > 0.95
+    assert paths[2].cutting_length < 0.5 * paths[1].cutting_length

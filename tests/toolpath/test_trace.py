@@ -70,5 +70,22 @@ def test_refined_samples_stay_close_to_the_surface():
     assert np.quantile(above, 0.9) < 0.002
 
 
+def test_what_is_dropped_already_is_only_refined():
+    ground, flat = terrain(), CUTTERS["flat"]
+    bare = sample([np.array([[0.2, 3.0], [5.8, 3.0]])], 0.05)
+    z = tip_heights(ground, flat, *bare.xy.T, allowance=SKIN)
+    known = Trace(bare.xy, z, bare.run, bare.corner, np.zeros(len(z)))
+    one, other = follow(ground, flat, bare), follow(ground, flat, known, dropped=True)
+    assert np.array_equal(one.z, other.z)
+    assert np.isnan(other.top).sum() == len(other) - len(bare)
+
+
+def test_turned_runs_keep_their_order():
+    trace = sample([np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[0.0, 1.0], [1.0, 1.0]])], 0.5)
+    turned = trace.turned()
+    assert turned.xy[:, 0].tolist() == [1, 0.5, 0, 1, 0.5, 0]
+    assert turned.xy[:, 1].tolist() == [0, 0, 0, 1, 1, 1]
+
+
 def test_nothing_to_follow_is_no_fault():
     assert len(follow(terrain(), CUTTERS["flat"], sample([], 0.1))) == 0
