@@ -58,18 +58,18 @@ def test_an_ok_that_never_comes_times_out_only_while_the_machine_is_idle():
     bench = Bench("G0X1\nG0X2")
     for second in range(60):
         assert bench.report("Run|MPos:1.000,0.000,0.000", second) is None
-    for second in range(60, 64):
+    for second in range(60, 67):
         assert bench.report("Idle|MPos:1.000,0.000,0.000", second) is None
-    failure = bench.report("Idle|MPos:1.000,0.000,0.000", 64)
+    failure = bench.report("Idle|MPos:1.000,0.000,0.000", 67)
     assert failure.fault is Fault.LOST_ACKNOWLEDGEMENT
     assert failure.found.endswith("2")
 
 
 def test_a_dwell_may_be_idle_for_its_own_time():
     bench = Bench("G4P3")
-    for second in range(7):
+    for second in range(10):
         assert bench.report("Idle|MPos:0.000,0.000,0.000", second) is None
-    assert bench.report("Idle|MPos:0.000,0.000,0.000", 7) is not None
+    assert bench.report("Idle|MPos:0.000,0.000,0.000", 10) is not None
 
 
 @pytest.mark.parametrize("state", ["Hold:0", "Door:1", "Door:0"])
