@@ -7,10 +7,14 @@ from relieffab.grbl.messages import Status
 from relieffab.grbl.stage import HOLD, RESUME, Failure, Fault, Patience
 from relieffab.grbl.window import Window
 
-CONFIRMED = 3
-"""Reports in a row that must miss bytes: one report may itself be damaged."""
 TWICE = 2
-"""Reports in a row that must be off the way."""
+"""Reports of one job that must miss bytes, or be off the way: one may itself be damaged.
+
+They need not follow each other: on a sound line there is none, and a single altered command
+may show in a single report.
+"""
+NOISY = 3
+"""Damaged reports of one job after which the line is noisy: far more bytes go the other way."""
 
 
 class Watch:
@@ -31,7 +35,7 @@ class Watch:
         self._course, self._window, self._patience = course, window, patience
         self._attended = attended
         self._asked: int | None = None
-        self._missing = self._off = 0
+        self._missing = self._off = self._damaged = 0
         self._dwell = 0.0
         self._idle_since: float | None = None
         self._held_since: float | None = None
@@ -69,6 +73,18 @@ class Watch:
         )
         return next((failure for failure in checks if failure is not None), None)
 
+    def noise(self, text: str) -> Failure | None:
+        """Take in a report that cannot be read."""
+        self._damaged += 1
+        if self._damaged < NOISY:
+            return None
+        return Failure(
+            Fault.GARBLED,
+            "status reports come damaged",
+            found=ascii(text),
+            hint="what is sent may be damaged as well: shorten the cable or use a shielded one",
+        )
+
     def strayed(self) -> Failure | None:
         """Say whether the machine ended where the program does not."""
         return self._strayed() if self._course.astray else None
@@ -92,8 +108,10 @@ class Watch:
             return None
         self._capacity = max(self._capacity, status.bytes_free)
         missing = self._window.missing(asked, self._capacity - status.bytes_free)
-        self._missing = self._missing + 1 if missing > 0 else 0
-        if self._missing < CONFIRMED:
+        if missing <= 0:
+            return None
+        self._missing += 1
+        if self._missing < TWICE:
             return None
         return Failure(
             Fault.LOST_ACKNOWLEDGEMENT,
@@ -103,7 +121,9 @@ class Watch:
         )
 
     def _wrong_way(self) -> Failure | None:
-        self._off = self._off + 1 if self._course.astray else 0
+        if not self._course.astray:
+            return None
+        self._off += 1
         return self._strayed() if self._off >= TWICE else None
 
     def _strayed(self) -> Failure:
