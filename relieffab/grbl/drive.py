@@ -67,7 +67,9 @@ class Drive:
             self.lost = True
             try:
                 self.lost = not self.port.reopen(self.patience.reconnect)
-                session.reconnected(failure, self._now(self.port))
+                now = self._now(self.port)
+                self._note("reconnected", now)
+                session.reconnected(failure, now)
                 if not self.lost:
                     self._finish()
             except MachineError:
