@@ -201,7 +201,10 @@ class Drive:
         outcome = _UNPLUGGED if self.lost else session.outcome
         again = ""
         if session.started is not None and session.reached is not None and not self.job.check:
-            again = f"to go on, send again with --from-line {session.reached.number}"
+            kept = session.position_kept and not self.lost
+            again = f"to go on, send again with --from-line {session.reached.number}" + (
+                "" if kept else " and --zero-set, once work zero is set again"
+            )
         hint = "; ".join(part for part in (outcome, failure.hint, again) if part)
         return MachineError(failure.message, found=failure.found, where=where, hint=hint)
 

@@ -35,7 +35,8 @@ class Watch:
         self._course, self._window, self._patience = course, window, patience
         self._attended = attended
         self._asked: int | None = None
-        self._missing = self._off = self._damaged = 0
+        self._missing = self._excess = self._off = self._damaged = 0
+        self._counts = False  # until it reports a byte waiting, as some never do
         self._dwell = 0.0
         self._idle_since: float | None = None
         self._held_since: float | None = None
@@ -67,6 +68,7 @@ class Watch:
         checks = (
             self._state(status),
             self._lost(status),
+            self._foreign(status),
             self._wrong_way(),
             self._stalled(status, now),
             self._held(status, now),
@@ -107,7 +109,9 @@ class Watch:
         if asked is None or status.bytes_free is None:
             return None
         self._capacity = max(self._capacity, status.bytes_free)
-        missing = self._window.missing(asked, self._capacity - status.bytes_free)
+        used = self._capacity - status.bytes_free
+        self._counts = self._counts or used > 0
+        missing = self._window.missing(asked, used) if self._counts else 0
         if missing <= 0:
             return None
         self._missing += 1
@@ -118,6 +122,22 @@ class Watch:
             "bytes were lost on the line",
             found=f"{missing} bytes that are not acknowledged are not in the machine's buffer",
             hint="shorten the cable or use a shielded one; check the stock",
+        )
+
+    def _foreign(self, status: Status) -> Failure | None:
+        """Notice that more waits in the controller than was sent and is not acknowledged."""
+        if status.bytes_free is None:
+            return None
+        used = self._capacity - status.bytes_free
+        waiting = status.state == "Run" and status.blocks_free == 0
+        self._excess += self._window.excess(used, waiting=waiting) > 0
+        if self._excess < TWICE:
+            return None
+        return Failure(
+            Fault.STRAY_ACKNOWLEDGEMENT,
+            "the machine holds more than it was sent",
+            found="bytes in its buffer that are acknowledged, or of somebody else",
+            hint="another program writes to this port, or the line is noisy; check the stock",
         )
 
     def _wrong_way(self) -> Failure | None:

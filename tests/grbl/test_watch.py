@@ -30,6 +30,7 @@ class Bench:
 
 def test_bytes_that_are_nowhere_were_lost():
     bench = Bench("G1X10\nG1X11\nG1X12")
+    bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,112")
     for free in (122, 116):  # one report may be damaged itself
         bench.watch.asked()
         assert bench.report(f"Run|MPos:0.000,0.000,0.000|Bf:15,{free}") is None
@@ -39,11 +40,27 @@ def test_bytes_that_are_nowhere_were_lost():
     assert failure.found.startswith("6 bytes")
 
 
+def test_a_controller_that_never_counts_its_bytes_is_not_held_to_them():
+    bench = Bench("G1X10\nG1X11\nG1X12")
+    for _ in range(9):
+        bench.watch.asked()
+        assert bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,128") is None
+
+
 def test_bytes_in_the_controllers_buffer_are_not_lost():
     bench = Bench("G1X10\nG1X11\nG1X12")
     for _ in range(9):
         bench.watch.asked()
         assert bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,116") is None
+
+
+def test_more_in_the_buffer_than_was_sent_is_somebody_elses():
+    bench = Bench("G1X10\nG1X11\nG1X12")
+    assert bench.report("Hold:0|MPos:0.000,0.000,0.000|Bf:15,110") is None
+    assert bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,109") is None
+    assert bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,110") is None
+    failure = bench.report("Run|MPos:0.000,0.000,0.000|Bf:15,109")
+    assert failure.fault is Fault.STRAY_ACKNOWLEDGEMENT
 
 
 def test_one_report_off_the_way_may_be_damaged_two_are_not():

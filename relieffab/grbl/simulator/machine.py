@@ -143,6 +143,7 @@ class SimulatedGrbl:
         if self.suspension.restored <= self.now:
             self.suspension.go_on()
         if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
+            self.work()  # Grbl looks at real-time bytes between lines, never within one
             _, byte = self.wire.urgent.popleft()
             if self.state != "Boot":
                 act(self, byte)
