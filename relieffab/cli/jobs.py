@@ -3,16 +3,19 @@
 import json
 import os
 import shutil
+import time
 from pathlib import Path
 
 import platformdirs
 
 from relieffab.errors import InputError
 from relieffab.grbl.program import Program
-from relieffab.grbl.record import Record, from_dict
+from relieffab.grbl.record import RUNNING, Record, from_dict
 
 LOG_PER_LINE = 120
 """Bytes that a line of a program takes in a log, about."""
+SELDOM = 1.0
+"""Seconds between two records of a job that runs."""
 SPARE = 20 << 20
 """Bytes for status reports, and for everything else on the disk."""
 
@@ -31,6 +34,7 @@ class Kept:
         folder = Path(platformdirs.user_state_dir("relieffab")) / "jobs"
         folder.mkdir(parents=True, exist_ok=True)
         self._record = folder / f"{program.digest[:16]}.json"
+        self._kept = -SELDOM
         self.log = log or self._record.with_suffix(".log")
         need = len(program) * LOG_PER_LINE + SPARE
         for place in {folder, self.log.parent}:
@@ -60,6 +64,10 @@ class Kept:
         if record is None:
             self._record.unlink(missing_ok=True)
             return
+        now = time.monotonic()
+        if record.reason == RUNNING and now - self._kept < SELDOM:
+            return  # a simulated machine may run a thousand times as fast as the disk
+        self._kept = now
         beside = self._record.with_suffix(".part")
         with beside.open("w", encoding="utf-8") as file:
             json.dump(record.to_dict(), file)

@@ -43,6 +43,10 @@ def send(
         str | None, Parameter(help="only set Z by a touch plate this thick, below the tool")
     ] = None,
     home: Annotated[bool, Parameter(negative="", help="home the machine first ($H)")] = False,
+    unlock: Annotated[
+        bool,
+        Parameter(negative="", help="end an alarm first ($X): the position is right"),
+    ] = False,
     resume: Annotated[
         bool, Parameter(negative="", help="go on where this program was interrupted")
     ] = False,
@@ -76,9 +80,10 @@ def send(
         whole, log, check=check, trace=trace, probe=probe,
         resume=(from_line, _seconds(from_time), zero_set) if asked[3] else None,
     )  # fmt: skip
-    job = replace(job, home=home)
+    job = replace(job, home=home, unlock=unlock)
     report = _run(job, port, baud, kept, ask=not yes)
-    return _tell(report, as_json=as_json, check=check)
+    what = "traced" if trace else "probed" if probe is not None else "carved"
+    return _tell(report, as_json=as_json, check=check, what=what)
 
 
 def stream(program: str, url: str) -> "SendReport":
@@ -180,6 +185,7 @@ def _confirm(job: "Job", plan: "Plan", keys: Callable[[], str] | None) -> bool:
         return True
     from relieffab.grbl.realtime import HELP
 
+    console.message("first?   --check, --trace and --probe try it without cutting")
     console.message(f"keys     {HELP}")
     console.message("start?   y starts, any other key leaves the machine alone")
     while not (typed := keys()):
@@ -193,7 +199,7 @@ def _rest() -> None:
     time.sleep(0.05)
 
 
-def _tell(report: "SendReport", *, as_json: bool, check: bool) -> int:
+def _tell(report: "SendReport", *, as_json: bool, check: bool, what: str) -> int:
     for error in report.errors:
         console.message(f"finding: {error}")
     if as_json:
@@ -201,5 +207,5 @@ def _tell(report: "SendReport", *, as_json: bool, check: bool) -> int:
     elif check:
         print(f"the machine read {report.lines:,} lines, {len(report.errors)} refused")
     else:
-        print(f"carved {report.cut_mm:,.0f} mm in {report.lines:,} lines")
+        print(f"{what} {report.cut_mm:,.0f} mm in {report.lines:,} lines")
     return 1 if report.errors else 0

@@ -66,7 +66,7 @@ ALARMS: dict[int, str] = {
 }
 
 STATES: dict[tuple[str, int | None], str] = {
-    ("Hold", 0): "held: the axes stand still, the spindle turns on",
+    ("Hold", 0): "held: the axes stand still, the spindle keeps turning",
     ("Hold", 1): "held: the axes are slowing down",
     ("Door", 0): "the safety door is closed again: the machine waits to be resumed",
     ("Door", 1): "the safety door is open: the spindle is off",

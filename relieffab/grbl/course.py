@@ -19,6 +19,8 @@ STEPS = 2
 """Steps of an axis that the machine may be off besides."""
 SAME = 0.002
 """mm by which a later line must be nearer to be preferred."""
+MOST = 2000
+"""Lines kept at most, however many of them hardly move."""
 DOUBTED = 4
 """Sightings that are not believed any more once the machine was seen astray."""
 SEGMENTS = 10
@@ -63,7 +65,8 @@ class Course:
         self._depth = blocks + SEGMENTS
         self._offset = self._heard = offset
         self._stretches: deque[_Stretch] = deque()
-        self._acknowledged = 0
+        self._acknowledged = self._blocks = 0
+        self._step = 2 * resolution
         self._cut = 0.0
         self._seen = False
         self._earlier: deque[Line | None] = deque(maxlen=DOUBTED)
@@ -94,11 +97,17 @@ class Course:
             self._acknowledged < len(stretches)
             and stretches[self._acknowledged].line.index <= line.index
         ):
+            self._blocks += self._takes_room(stretches[self._acknowledged])
             self._acknowledged += 1
-        while self._acknowledged > self._depth:
+        while self._blocks > self._depth or self._acknowledged > MOST:
             passed = stretches.popleft()
+            self._blocks -= self._takes_room(passed)
             self._acknowledged -= 1
             self._pass(passed)
+
+    def _takes_room(self, stretch: _Stretch) -> bool:
+        """Say whether a line surely became a move: Grbl drops those of less than a step."""
+        return stretch.motion.length > self._step
 
     def finish(self, line: Line) -> None:
         """All is done: the machine is idle and owes nothing."""

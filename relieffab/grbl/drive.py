@@ -67,7 +67,9 @@ class Drive:
             self.lost = True
             try:
                 self.lost = not self.port.reopen(self.patience.reconnect)
-                session.reconnected(failure, self._now(self.port))
+                now = self._now(self.port)
+                self._note("reconnected", now)
+                session.reconnected(failure, now)
                 if not self.lost:
                     self._finish()
             except MachineError:
@@ -199,7 +201,10 @@ class Drive:
         outcome = _UNPLUGGED if self.lost else session.outcome
         again = ""
         if session.started is not None and session.reached is not None and not self.job.check:
-            again = f"to go on, send again with --from-line {session.reached.number}"
+            kept = session.position_kept and not self.lost
+            again = f"to go on, send again with --from-line {session.reached.number}" + (
+                "" if kept else " and --zero-set, once work zero is set again"
+            )
         hint = "; ".join(part for part in (outcome, failure.hint, again) if part)
         return MachineError(failure.message, found=failure.found, where=where, hint=hint)
 

@@ -140,7 +140,7 @@ class Greeting:
             Fault.NOT_READY,
             "the machine is locked by an alarm",
             found=found,
-            hint="send again with --home, or unlock it ($X) if its position is known to be right",
+            hint="send again with --home, or with --unlock if its position is known to be right",
         )
 
     def _busy(self, status: Status) -> None:

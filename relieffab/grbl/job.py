@@ -49,6 +49,8 @@ class Job:
         Somebody at the keyboard can end a hold.
     home : bool
         Home the machine first ($H).
+    unlock : bool
+        End its alarm first ($X): a person says that its position is right.
     resume : Resume or None
     """
 
@@ -56,6 +58,7 @@ class Job:
     check: bool = False
     attended: bool = False
     home: bool = False
+    unlock: bool = False
     resume: Resume | None = None
 
 
@@ -118,7 +121,7 @@ def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
 
 def _setup(job: Job, controller: Controller) -> list[Program]:
     """Bring the machine to the state that a program may expect, that of a reset."""
-    setup = [commands("$H")] if job.home else []
+    setup = [commands("$H")] if job.home else [commands("$X")] if job.unlock else []
     if job.check:
         return [*setup, commands("$C")]
     wrong = not set(_EXPECTED) <= set(controller.modal.split())

@@ -19,6 +19,7 @@ from typing import TextIO
 from relieffab.errors import InputError
 from relieffab.grbl.job import Job
 from relieffab.grbl.protocol import Session
+from relieffab.grbl.stage import Failure, Fault
 
 HEADER = "# relieffab job log 1"
 FLUSH = 1.0
@@ -51,7 +52,7 @@ class Log:
             self._stream.flush()
 
     def event(self, name: str, now: float, data: bytes = b"") -> None:
-        """Note what a person did: go, key, cancel."""
+        """Note what else happened: go, key, cancel, reconnected."""
         self._stream.write(f"{now!r} {name} {_escape(data)}".rstrip(" ") + "\n")
 
     def flush(self) -> None:
@@ -114,10 +115,12 @@ def replay(lines: Iterable[str], job: Job) -> Session:
 
 
 def _events(session: Session) -> dict[str, Callable[[bytes, float], None]]:
+    lost = Failure(Fault.UNPLUGGED, "the connection to the machine was lost")
     return {
         "go": lambda _, now: session.go(now),
         "key": lambda data, _: session.command(data),
         "cancel": lambda _, now: session.cancel(now),
+        "reconnected": lambda _, now: session.reconnected(lost, now),
     }
 
 

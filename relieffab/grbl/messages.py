@@ -228,7 +228,21 @@ def damaged(text: str) -> bool:
 
     Examples
     --------
-    >>> damaged("o?k"), damaged("okok"), damaged("erro:22"), damaged("|MPos:0,0>")
+    >>> damaged("o?k"), damaged("okok"), damaged("erro:22"), damaged("0,0>")
     (True, True, True, False)
     """
-    return 0 < len(text) <= 5 or text[:3] in ("err", "ror") or "rror:" in text
+    part_of_a_report = any(mark in text for mark in "<>|[],.$")
+    short = 0 < len(text) <= 5 and ":" not in text
+    error = len(text) <= 10 and ("rr" in text or "ror" in text)
+    return (short or error) and not part_of_a_report
+
+
+def damaged_report(text: str) -> bool:
+    """Say whether a line that means nothing may have been a status report.
+
+    Examples
+    --------
+    >>> damaged_report("Idle|MPos:0.000,0.0"), damaged_report(">G21:ok")
+    (True, False)
+    """
+    return text.startswith("<") or "|" in text or text.endswith(">")

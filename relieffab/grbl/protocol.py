@@ -20,7 +20,7 @@ from relieffab.grbl.messages import LineSplitter, Message, Point, Status, parse
 from relieffab.grbl.pace import Pace
 from relieffab.grbl.program import Line, Program, commands
 from relieffab.grbl.realtime import NORMAL
-from relieffab.grbl.record import Record
+from relieffab.grbl.record import RUNNING, Record
 from relieffab.grbl.resume import Entry, approach
 from relieffab.grbl.stage import Failure, Fault, Patience
 from relieffab.grbl.stop import SafeStop
@@ -78,7 +78,7 @@ class Session:
         self._overrides = (100, 100, 100)
         self._status: Status | None = None
         self._stage: Greeting | Streaming | SafeStop | None = Greeting(
-            self._patience, now, locked=job.home
+            self._patience, now, locked=job.home or job.unlock
         )
 
     # -- what the driver calls ---------------------------------------------------------------
@@ -218,7 +218,7 @@ class Session:
             position=self.position,
             work_zero=self.controller.work_zero,
             position_kept=self.over and self.position_kept,
-            reason=self.failure.message if self.failure else "running",
+            reason=self.failure.message if self.failure else RUNNING,
         )
 
     # -- within ------------------------------------------------------------------------------

@@ -8,6 +8,8 @@ from relieffab.errors import InputError
 from relieffab.grbl.messages import Point
 
 SCHEMA = 1
+RUNNING = "running"
+"""The reason of a record that no end has replaced: the computer stopped, not the job."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Record:
     position_kept : bool
         True where the machine was seen to stop without losing its position.
     reason : str
-        What ended the job; "running" while it does not.
+        What ended the job; `RUNNING` while it does not.
     """
 
     program: str

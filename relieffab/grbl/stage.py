@@ -20,7 +20,8 @@ class Patience:
     answer : float
         For the answer to a question, and for any sign of life while cutting.
     stall : float
-        For an acknowledgement while the machine reports that it has nothing to do.
+        For an acknowledgement while the machine reports that it has nothing to do; some
+        controllers wait that long for the spindle.
     hold : float
         For the axes to come to rest after a feed hold.
     again : float
@@ -37,7 +38,7 @@ class Patience:
 
     banner: float = 3.0
     answer: float = 5.0
-    stall: float = 3.0
+    stall: float = 6.0
     hold: float = 30.0
     again: float = 0.6
     unattended: float = 60.0

@@ -9,7 +9,16 @@ from relieffab.grbl import lines
 from relieffab.grbl.codes import alarm_meaning, error_meaning
 from relieffab.grbl.course import Course
 from relieffab.grbl.feed import Feed, alone
-from relieffab.grbl.messages import Acknowledgement, Alarm, Banner, Message, Other, Status, damaged
+from relieffab.grbl.messages import (
+    Acknowledgement,
+    Alarm,
+    Banner,
+    Message,
+    Other,
+    Status,
+    damaged,
+    damaged_report,
+)
 from relieffab.grbl.program import Line
 from relieffab.grbl.stage import Failure, Fault, Patience, Poll
 from relieffab.grbl.watch import Watch
@@ -88,8 +97,14 @@ class Streaming:
             self.fail(_alarmed(message.code, self.window.first))
         elif isinstance(message, Banner):
             self.fail(_restarted(message))
-        elif isinstance(message, Other) and len(self.window) and damaged(message.text):
-            self.fail(_garbled(message.text))
+        elif isinstance(message, Other):
+            self._unread(message.text)
+
+    def _unread(self, text: str) -> None:
+        if len(self.window) and damaged(text):
+            self.fail(_garbled(text))
+        elif damaged_report(text) and (failure := self._watch.noise(text)):
+            self.fail(failure)
 
     def give(self, now: float) -> bytes:
         """Give the bytes to send, and notice what is overdue."""

@@ -7,10 +7,14 @@ from relieffab.grbl.messages import Status
 from relieffab.grbl.stage import HOLD, RESUME, Failure, Fault, Patience
 from relieffab.grbl.window import Window
 
-CONFIRMED = 3
-"""Reports in a row that must miss bytes: one report may itself be damaged."""
 TWICE = 2
-"""Reports in a row that must be off the way."""
+"""Reports of one job that must miss bytes, or be off the way: one may itself be damaged.
+
+They need not follow each other: on a sound line there is none, and a single altered command
+may show in a single report.
+"""
+NOISY = 3
+"""Damaged reports of one job after which the line is noisy: far more bytes go the other way."""
 
 
 class Watch:
@@ -31,7 +35,8 @@ class Watch:
         self._course, self._window, self._patience = course, window, patience
         self._attended = attended
         self._asked: int | None = None
-        self._missing = self._off = 0
+        self._missing = self._excess = self._off = self._damaged = 0
+        self._counts = False  # until it reports a byte waiting, as some never do
         self._dwell = 0.0
         self._idle_since: float | None = None
         self._held_since: float | None = None
@@ -63,11 +68,24 @@ class Watch:
         checks = (
             self._state(status),
             self._lost(status),
+            self._foreign(status),
             self._wrong_way(),
             self._stalled(status, now),
             self._held(status, now),
         )
         return next((failure for failure in checks if failure is not None), None)
+
+    def noise(self, text: str) -> Failure | None:
+        """Take in a report that cannot be read."""
+        self._damaged += 1
+        if self._damaged < NOISY:
+            return None
+        return Failure(
+            Fault.GARBLED,
+            "status reports come damaged",
+            found=ascii(text),
+            hint="what is sent may be damaged as well: shorten the cable or use a shielded one",
+        )
 
     def strayed(self) -> Failure | None:
         """Say whether the machine ended where the program does not."""
@@ -91,9 +109,13 @@ class Watch:
         if asked is None or status.bytes_free is None:
             return None
         self._capacity = max(self._capacity, status.bytes_free)
-        missing = self._window.missing(asked, self._capacity - status.bytes_free)
-        self._missing = self._missing + 1 if missing > 0 else 0
-        if self._missing < CONFIRMED:
+        used = self._capacity - status.bytes_free
+        self._counts = self._counts or used > 0
+        missing = self._window.missing(asked, used) if self._counts else 0
+        if missing <= 0:
+            return None
+        self._missing += 1
+        if self._missing < TWICE:
             return None
         return Failure(
             Fault.LOST_ACKNOWLEDGEMENT,
@@ -102,8 +124,26 @@ class Watch:
             hint="shorten the cable or use a shielded one; check the stock",
         )
 
+    def _foreign(self, status: Status) -> Failure | None:
+        """Notice that more waits in the controller than was sent and is not acknowledged."""
+        if status.bytes_free is None:
+            return None
+        used = self._capacity - status.bytes_free
+        waiting = status.state == "Run" and status.blocks_free == 0
+        self._excess += self._window.excess(used, waiting=waiting) > 0
+        if self._excess < TWICE:
+            return None
+        return Failure(
+            Fault.STRAY_ACKNOWLEDGEMENT,
+            "the machine holds more than it was sent",
+            found="bytes in its buffer that are acknowledged, or of somebody else",
+            hint="another program writes to this port, or the line is noisy; check the stock",
+        )
+
     def _wrong_way(self) -> Failure | None:
-        self._off = self._off + 1 if self._course.astray else 0
+        if not self._course.astray:
+            return None
+        self._off += 1
         return self._strayed() if self._off >= TWICE else None
 
     def _strayed(self) -> Failure:

@@ -52,6 +52,19 @@ class Window:
         self.bytes -= len(line.wire)
         return line
 
+    def excess(self, used: int, *, waiting: bool = False) -> int:
+        """Bytes in the controller's buffer that we did not send, or had acknowledged.
+
+        Parameters
+        ----------
+        used : int
+            Bytes in its buffer, by its own report.
+        waiting : bool
+            It waits for room in its planner, the oldest line wholly read.
+        """
+        first = len(self._pending[0].wire) if waiting and self._pending else 0
+        return used - (self.bytes - first)
+
     def missing(self, sent: int, used: int) -> int:
         """Bytes that must lie in the controller's buffer and do not.
 

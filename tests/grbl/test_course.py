@@ -10,8 +10,8 @@ def at(x, y=0.0, z=0.0, more=""):
     return parse(f"<Run|MPos:{x:.3f},{y:.3f},{z:.3f}|FS:0,0{more}>")
 
 
-def on_course(text, blocks=15, offset=(0.0, 0.0, 0.0)):
-    course = Course(blocks, offset)
+def on_course(text, blocks=15, offset=(0.0, 0.0, 0.0), resolution=0.0):
+    course = Course(blocks, offset, resolution)
     feed = Feed(prepare(text), (0.0, 0.0, 0.0))
     lines = []
     while feed.next is not None:
@@ -89,6 +89,23 @@ def test_lines_that_do_not_move_take_no_room_in_the_planner():
     for line in lines:
         course.acknowledged(line)
     assert course.reached.number == 1
+
+
+def test_moves_of_less_than_a_step_take_no_room_either():
+    text = "".join(f"G1X{i}\n" + f"G1X{i}.01\n" * 9 for i in range(1, 41))
+    course, lines = on_course(text, blocks=5, resolution=0.025)
+    for line in lines:
+        course.acknowledged(line)
+    course.report(at(26.5))
+    assert course.off_mm == 0
+    assert course.reached.text == "G1X27"
+
+
+def test_lines_that_never_move_are_not_kept_for_ever():
+    course, lines = on_course("G1X0.01\n" * 5000, blocks=5)
+    for line in lines:
+        course.acknowledged(line)
+    assert len(course._stretches) <= 2000
 
 
 def test_arcs_are_followed():

@@ -118,7 +118,7 @@ def test_a_locked_machine_is_refused_with_what_to_do(line):
     answer(greeting, greet(greeting, [BANNER]))
     greet(greeting, [line])
     assert greeting.failure.fault is Fault.NOT_READY
-    assert "$X" in greeting.failure.hint
+    assert "--unlock" in greeting.failure.hint
 
 
 def test_a_refused_question_is_asked_again_and_then_a_failure():

@@ -38,6 +38,8 @@ def test_another_system_is_left_unless_the_program_names_g54():
 def test_homing_comes_first():
     found = plan(Job(PROGRAM, home=True), Controller("1.1h", modal=GC), IDLE)
     assert setup(found) == ["$H"]
+    found = plan(Job(PROGRAM, unlock=True, check=True), Controller("1.1h", modal=GC), IDLE)
+    assert setup(found) == ["$X", "$C"]
 
 
 def test_a_check_begins_with_check_mode():

@@ -35,7 +35,7 @@ def test_a_job_can_be_lived_through_again():
 
 
 @pytest.mark.parametrize(
-    "fault", ["&reboot_at=4", "&flip=1e-3&seed=5", "&limit_at=3", "&mute_at=3"]
+    "fault", ["&reboot_at=4", "&flip=1e-3&seed=5", "&limit_at=3", "&mute_at=3", "&unplug_at=3"]
 )
 def test_a_failure_can_be_lived_through_again(fault):
     lines, error = logged(FAST + fault)

@@ -286,6 +286,17 @@ def test_without_soft_limits_a_large_program_is_only_noted():
     assert session.plan.notes == ("X spans 400.000 mm of 263.000 mm of travel",)
 
 
+def test_a_stray_ok_is_seen_before_it_overruns_the_buffer():
+    program, _ = zigzag(300)
+    wire = Wire(session_of(program))
+    wire.run(until=lambda: wire.session.acknowledged > 60)
+    wire.machine.say("ok")
+    session = wire.run()
+    assert session.failure.fault is Fault.STRAY_ACKNOWLEDGEMENT
+    assert session.acknowledged < 120
+    assert at_rest(wire.machine)
+
+
 def test_nothing_moves_before_it_is_told_to():
     session, machine = session_of(prepare("G0X1")), SimulatedGrbl(boot=0.1)
     while not session.ready:

@@ -235,6 +235,12 @@ def test_a_machine_that_homes_is_homed_if_told_to():
         assert port.device.machine.path[0] == (-5.0, -1.0, -1.0)
 
 
+def test_an_alarm_is_ended_if_told_to(port):
+    port.device.machine.at(0.2, lambda: port.device.machine.alarm(3))
+    report = send(Job(prepare("G1X2F600"), unlock=True), port)
+    assert report.position == (2.0, 0.0, 0.0)
+
+
 def test_after_homing_a_job_goes_on_whatever_the_power_did():
     kept, text = [], "G0X-30Y-30Z-2\n" + raster(200).replace("X", "X-").replace("Y", "Y-")
     text = text.replace("Z-0", "Z-5") + "G0Z2\n"
@@ -251,7 +257,7 @@ def test_after_homing_a_job_goes_on_whatever_the_power_did():
 
 
 def test_a_locked_machine_is_not_unlocked_behind_anyones_back():
-    with open_port(FAST + "&$22=1") as port, pytest.raises(MachineError, match=r"\$X"):
+    with open_port(FAST + "&$22=1") as port, pytest.raises(MachineError, match="--unlock"):
         send("G0X1", port)
 
 

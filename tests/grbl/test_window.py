@@ -39,3 +39,15 @@ def test_an_acknowledgement_too_many_names_nothing(window):
 )
 def test_what_the_controller_must_still_hold(window, sent, used, missing):
     assert window.missing(sent, used) == missing
+
+
+@pytest.mark.parametrize(("used", "excess"), [(18, 0), (19, 1), (0, -18)])
+def test_what_the_controller_may_hold_at_most(window, used, excess):
+    assert window.excess(used) == excess
+    assert window.excess(used, waiting=True) == excess + 6
+
+
+def test_nothing_is_held_that_is_acknowledged(window):
+    for _ in range(3):
+        window.acknowledged()
+    assert window.excess(6) == 6

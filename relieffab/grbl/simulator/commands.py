@@ -1,6 +1,7 @@
 """The $ commands of the simulated Grbl."""
 
 import re
+from collections.abc import Callable
 from typing import Protocol
 
 from relieffab.grbl.simulator import reports
@@ -13,6 +14,8 @@ from relieffab.grbl.simulator.words import Refused, read_words
 EEPROM_SECONDS = 0.1
 """How long a stored setting keeps the controller deaf: some 30 bytes of 3.4 ms."""
 
+HOMING_SECONDS = 8.0
+
 _SETTING = re.compile(r"\$(\d+)=(-?[\d.]+)")
 _STARTUP = re.compile(r"\$N([01])=(.*)")
 
@@ -20,34 +23,36 @@ _STARTUP = re.compile(r"\$N([01])=(.*)")
 class Host(Protocol):
     """What the commands ask of the machine."""
 
+    now: float
     settings: Settings
     interpreter: Interpreter
     planner: Planner
     wire: Wire
     state: str
+    spindle: float
     startup: list[str]
     probed: reports.Probed
 
     def say(self, text: str) -> None:
         """Print a line."""
 
+    def at(self, time: float, happen: Callable[[], None]) -> None:
+        """Have something happen at a time."""
+
+    def outside(self, move: Move) -> bool:
+        """Whether a soft limit forbids a move."""
+
     def deafen(self, seconds: float) -> None:
         """Lose bytes while the EEPROM is written."""
 
-    def home(self) -> None:
-        """Start a homing cycle."""
+    def occupy(self, seconds: float) -> None:
+        """Keep the main program from its lines."""
 
-    def check(self) -> None:
-        """Switch the check mode."""
+    def reset(self) -> None:
+        """Do as Ctrl-X does."""
 
-    def sleep(self) -> None:
-        """Switch everything off until a reset."""
-
-    def jog(self, move: Move) -> None:
-        """Set off on a jog, or refuse it."""
-
-    def restore(self, what: str) -> None:
-        """Forget what is stored: $ settings, # offsets, * all."""
+    def restart(self) -> None:
+        """Start anew, with the position that is known."""
 
 
 def run_command(machine: Host, line: str) -> None:
@@ -56,12 +61,12 @@ def run_command(machine: Host, line: str) -> None:
         _ALWAYS[line](machine)
         return
     if machine.state == "Check" and line == "$C":
-        machine.check()
+        _leave_check(machine)
         return
     if line.startswith("$J="):
         if machine.state not in ("Idle", "Jog"):
             raise Refused(8)
-        machine.jog(machine.interpreter.jog(line[3:]))
+        _jog(machine, line[3:])
         return
     if machine.state not in ("Idle", "Alarm"):
         raise Refused(8)
@@ -71,7 +76,7 @@ def run_command(machine: Host, line: str) -> None:
         machine.settings.change(int(setting[1]), float(setting[2]))
         machine.deafen(EEPROM_SECONDS)
     elif line in ("$RST=$", "$RST=#", "$RST=*"):
-        machine.restore(line[-1])
+        _restore(machine, line[-1])
     elif (block := _STARTUP.fullmatch(line)) and machine.state == "Idle":
         read_words(block[2])
         machine.startup[int(block[1])] = block[2]
@@ -118,13 +123,47 @@ def _startup(machine: Host) -> None:
 def _home(machine: Host) -> None:
     if not machine.settings[22]:
         raise Refused(5)
-    machine.home()
+    machine.state = "Home"  # it always finds its switches
+    machine.occupy(HOMING_SECONDS)
 
 
 def _check(machine: Host) -> None:
     if machine.state != "Idle":
         raise Refused(8)
-    machine.check()
+    machine.say("[MSG:Enabled]")
+    machine.state = "Check"
+
+
+def _leave_check(machine: Host) -> None:
+    machine.say("[MSG:Disabled]")
+    machine.state = "Idle"
+    machine.restart()
+
+
+def _jog(machine: Host, line: str) -> None:
+    move = machine.interpreter.jog(line)
+    if machine.outside(move):
+        raise Refused(15)
+    machine.interpreter.coordinates.position = list(move.target)
+    machine.planner.add(move.target, move.feed, machine.now)
+    machine.state = "Jog"
+    machine.planner.start(machine.now)
+
+
+def _sleep(machine: Host) -> None:
+    machine.say("[MSG:Sleeping]")
+    machine.state, machine.spindle = "Sleep", 0.0
+
+
+def _restore(machine: Host, what: str) -> None:
+    """Forget what is stored: $ settings, # offsets, * all."""
+    machine.say("[MSG:Restoring defaults]")
+    if what in "$*":
+        machine.settings.restore()
+    if what in "#*":
+        machine.interpreter.coordinates.forget()
+    machine.deafen(EEPROM_SECONDS)
+    machine.at(machine.now + EEPROM_SECONDS, machine.reset)
 
 
 _ALWAYS = {"$": _help, "$G": _modal, "$X": _unlock}
@@ -135,5 +174,5 @@ _AT_REST = {
     "$N": _startup,
     "$H": _home,
     "$C": _check,
-    "$SLP": lambda machine: machine.sleep(),
+    "$SLP": _sleep,
 }

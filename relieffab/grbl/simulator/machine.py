@@ -11,7 +11,6 @@ from array import array
 from collections.abc import Callable
 
 from relieffab.grbl.simulator import reports
-from relieffab.grbl.simulator.commands import EEPROM_SECONDS
 from relieffab.grbl.simulator.interpreter import Interpreter, Move
 from relieffab.grbl.simulator.planner import Planner, Point
 from relieffab.grbl.simulator.probing import Prober
@@ -20,9 +19,7 @@ from relieffab.grbl.simulator.realtime import Overrides, act
 from relieffab.grbl.simulator.settings import Settings
 from relieffab.grbl.simulator.suspend import Suspension
 from relieffab.grbl.simulator.wire import Wire
-from relieffab.grbl.simulator.words import Refused
 
-HOMING_SECONDS = 8.0
 _CRITICAL = (1, 2)
 
 
@@ -146,6 +143,7 @@ class SimulatedGrbl:
         if self.suspension.restored <= self.now:
             self.suspension.go_on()
         if self.wire.urgent and self.wire.urgent[0][0] <= self.now:
+            self.work()  # Grbl looks at real-time bytes between lines, never within one
             _, byte = self.wire.urgent.popleft()
             if self.state != "Boot":
                 act(self, byte)
@@ -193,30 +191,6 @@ class SimulatedGrbl:
         if self.state in ("Idle", "Run", "Hold"):
             self.interpreter.coolant = 9 if self.interpreter.coolant == 8 else 8
 
-    def jog(self, move: Move) -> None:
-        """Set off on a jog, or refuse it."""
-        if self.outside(move):
-            raise Refused(15)
-        self.interpreter.coordinates.position = list(move.target)
-        self.planner.add(move.target, move.feed, self.now)
-        self.state = "Jog"
-        self.planner.start(self.now)
-
-    def sleep(self) -> None:
-        """Switch everything off until a reset."""
-        self.say("[MSG:Sleeping]")
-        self.state, self.spindle = "Sleep", 0.0
-
-    def restore(self, what: str) -> None:
-        """Forget what is stored: $ settings, # offsets, * all."""
-        self.say("[MSG:Restoring defaults]")
-        if what in "$*":
-            self.settings.restore()
-        if what in "#*":
-            self.interpreter.coordinates.forget()
-        self.deafen(EEPROM_SECONDS)
-        self.at(self.now + EEPROM_SECONDS, self.reset)
-
     def hit_limit(self) -> None:
         """Run into a limit switch: stop at once, position lost."""
         self.alarm(1)
@@ -238,27 +212,16 @@ class SimulatedGrbl:
         moving = self.planner.running or self.state == "Home"
         if moving and self.state != "Alarm":
             self.alarm(6 if self.state == "Home" else 3)
-        self._restart()
+        self.restart()
 
     def deafen(self, seconds: float) -> None:
         """Lose bytes while the EEPROM is written."""
         self.wire.deaf_until = self.now + seconds
+        self.occupy(seconds)
+
+    def occupy(self, seconds: float) -> None:
+        """Keep the main program from its lines."""
         self._processor.ready = self.now + seconds
-
-    def home(self) -> None:
-        """Run to the switches; it always finds them."""
-        self.state = "Home"
-        self._processor.ready = self.now + HOMING_SECONDS
-
-    def check(self) -> None:
-        """Switch the check mode on, or off with a reset."""
-        if self.state == "Check":
-            self.say("[MSG:Disabled]")
-            self.state = "Idle"
-            self._restart()
-        else:
-            self.say("[MSG:Enabled]")
-            self.state = "Check"
 
     # -- what the main program asks for ---------------------------------------------------
 
@@ -321,7 +284,8 @@ class SimulatedGrbl:
         turning = {3: "S", 4: "C"}.get(self.interpreter.spindle, "") if self.spindle else ""
         return turning + ("F" if self.interpreter.coolant == 8 else "")
 
-    def _restart(self) -> None:
+    def restart(self) -> None:
+        """Start anew, with the position that is known."""
         self._restart_quietly()
         self.state = "Alarm" if self.state == "Alarm" else "Idle"
         self._greet()
