@@ -101,7 +101,7 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
         joins = _joins(part, runs, linking.reach)
         for k, run in enumerate(runs):
             if k in joins:
-                moves.append((joins[k][1:-1], False))
+                moves.append((between(joins[k], moves[-1][0][-1], run[0]), False))
             else:
                 moves.append((_approach(run, moves[-1][0][-1] if moves else None, safe), True))
                 moves.append((_ramped(run, ceilings[k]) if linking.ramp else run[:0], False))
@@ -132,6 +132,17 @@ def _joins(part: Pass, runs: list[Floats], reach: float) -> dict[int, Floats]:
     ]
     pairs = [np.stack([runs[k - 1][-1, :2], runs[k][0, :2]]) for k in near]
     return dict(zip(near, bridges(part, pairs), strict=True))
+
+
+def between(way: Floats, start: Floats, end: Floats) -> Floats:
+    """Leave out the ends of a way that the runs it joins have, too.
+
+    Where a way was lifted off a jump in the ground, its ends are above theirs: the
+    cutter rises there first, and comes down at the other end.
+    """
+    first = 0 if way[0, 2] > start[2] else 1
+    last = len(way) if way[-1, 2] > end[2] else len(way) - 1
+    return way[first:last]
 
 
 def _approach(run: Floats, here: Floats | None, safe: float) -> Floats:

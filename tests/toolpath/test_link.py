@@ -7,7 +7,7 @@ from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.machine import Cutting, Machine
 from relieffab.toolpath.envelope import Terrain, tip_heights
-from relieffab.toolpath.link import CLEARANCE, HOP, Linking, arrange, link
+from relieffab.toolpath.link import CLEARANCE, HOP, Linking, arrange, between, link
 from relieffab.toolpath.passes import Pass, Work, passes
 from relieffab.toolpath.trace import SKIN, sample
 
@@ -104,3 +104,12 @@ def test_nothing_to_join_is_no_motion():
     points, feed = link([], Linking(MACHINE, USE, reach=1.0))
     assert points.shape == (0, 3)
     assert len(feed) == 0
+
+
+def test_a_way_lifted_at_its_ends_is_climbed_to_first():
+    """Its ends stand above the runs' own: straight from run to run it would gouge."""
+    way = np.array([[0.0, 0, -0.2], [1, 0, -0.2], [2, 0, -1.0]])
+    start, end = np.array([0.0, 0, -0.6]), np.array([2.0, 0, -1.2])
+    assert between(way, start, end).tolist() == way.tolist()
+    assert between(way, way[0], way[-1]).tolist() == [[1, 0, -0.2]]
+    assert len(between(way[[0, -1]], way[0], way[-1])) == 0
