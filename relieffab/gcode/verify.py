@@ -85,7 +85,7 @@ def verify(
     setup: Setup,
     *,
     tolerance: float = 0.1,
-    gouge_limit: float = 0.01,
+    gouge_limit: float = 0.005,
     refine: int | None = None,
     progress: Progress = silent,
 ) -> Verification:

@@ -259,6 +259,7 @@ def test_a_job_file_without_a_model_is_refused(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.usefixtures("heard")
 def test_a_job_that_is_stopped_leaves_nothing(model, tmp_path, number):
     command = [sys.executable, "-m", "relieffab", "make", str(model), "-o", str(tmp_path / "out")]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)

@@ -127,6 +127,7 @@ def test_what_holds_the_machine_is_told_by_name(program, capsys):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.usefixtures("heard")
 def test_a_stop_from_outside_stops_the_machine_and_says_where(program, number, tmp_path):
     log = tmp_path / "job.log"
     command = [sys.executable, "-m", "relieffab", "send", str(program), "--log", str(log)]

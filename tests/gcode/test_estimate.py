@@ -141,7 +141,11 @@ def simulated(text, one):
         boot=0.0,
     )
     grbl.run(0.01)
-    start, waiting, lines = grbl.now, deque(), deque(prepare(text).text.splitlines(True))
+    start, waiting, lines = (
+        grbl.now,
+        deque(),
+        deque(line.wire for line in prepare(text).read()),
+    )
     while lines or waiting or grbl.state != "Idle":
         while lines and sum(waiting) + len(lines[0]) <= one.rx_buffer:
             waiting.append(len(lines[0]))
