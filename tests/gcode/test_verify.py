@@ -93,7 +93,7 @@ def test_a_gouge_of_a_twentieth_is_caught():
     assert 0.045 < result.gouge_mm < 0.055
     assert result.deviation.min() == pytest.approx(-result.gouge_mm, abs=0.002)
     assert judge(deepen(TEXT, 0.05), gouge_limit=0.06).ok
-    assert judge(deepen(TEXT, 0.009)).ok
+    assert judge(deepen(TEXT, 0.004)).ok
 
 
 def without_row(text, y):
