@@ -50,15 +50,11 @@ def test_a_check_begins_with_check_mode():
     ("resume", "number"),
     [
         (Resume(line=20, zero_set=True), 20),
-        (Resume(seconds=0.0, zero_set=True), 1),
         (Resume(Record("", 9, (1, 2, 3), (0, 0, 0), True, "x")), 9),
         (Resume(Record("", 9, (1, 2, 3), (0, 0, 0), True, "x"), line=12), 12),
     ],
 )
 def test_where_a_job_is_taken_up(resume, number):
-    if number == 1:
-        resume = Resume(line=2, zero_set=True)
-        number = 2
     found = plan(Job(PROGRAM, resume=resume), Controller("1.1h", modal=GC), IDLE)
     assert found.number == found.entry.number == number
 
