@@ -22,6 +22,7 @@ Place = tuple[float | None, float | None, float | None]
 """X, Y, Z in work coordinates, mm; None where an axis is not known."""
 
 _PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
+_PLAIN_LETTERS = "LNPT"
 _PROBING = {38.2, 38.3, 38.4, 38.5}
 _AWAY = {28.0, 30.0, 53.0, 92.0, 92.1, *_PROBING}
 _UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, 49.0, *_AWAY, *map(float, range(55, 60))}
@@ -73,7 +74,7 @@ class Tracker:
     fastest_spindle : float
         Highest S named, rpm.
     codes : set of str
-        G and M words met so far, such as ``G54``.
+        G and M words met so far, such as ``G54``, and letters beyond Grbl's own, such as ``A``.
     """
 
     def __init__(self, position: Place = (None, None, None)) -> None:
@@ -157,6 +158,8 @@ class Tracker:
             elif letter == "M":
                 self.codes.add(f"M{value:g}")
                 self.modal = self.modal.with_m(value)
+            elif letter not in _PLAIN_LETTERS:
+                self.codes.add(letter)
         if away or self.modal.motion in _PROBING:
             self._forget(axes)
             return None
