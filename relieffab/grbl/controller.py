@@ -121,6 +121,11 @@ class Controller:
         return named[0] if named else "G54"
 
     @property
+    def quiet(self) -> bool:
+        """True with spindle and coolant off."""
+        return {"M5", "M9"} <= set(self.modal.split())
+
+    @property
     def work_zero(self) -> Point:
         """Where work zero lies in machine coordinates, mm."""
         scale = MM_PER_INCH if self.inches else 1.0

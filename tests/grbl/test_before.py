@@ -4,7 +4,7 @@ from relieffab.errors import InputError, MachineError
 from relieffab.grbl.before import outline, touch
 from relieffab.grbl.port import open_port
 from relieffab.grbl.program import prepare
-from relieffab.grbl.sender import send
+from relieffab.grbl.sender import Company, send
 
 FAST = "sim://?speed=max&boot=0.1"
 
@@ -17,6 +17,15 @@ def test_the_outline_is_traced_above_the_stock_with_the_spindle_off():
     assert {point[2] for point in machine.path} == {5.0}
     corners = [(2, 3), (42, 3), (42, 33), (2, 33), (2, 3)]
     assert [point[:2] for point in machine.path[1:]] == [pytest.approx(c) for c in corners]
+
+
+@pytest.mark.parametrize("text", [outline(prepare("G0X2Y3Z5\nG1X9Y9F300")), touch(15.0)])
+def test_a_spindle_that_turns_is_switched_off_first(text):
+    seen = []
+    with open_port(FAST + "&plate=-7.5") as port:
+        port.device.machine.startup[0] = "M3S1000"
+        send(text, port, Company(show=seen.append))
+    assert {view.speed for view in seen if view.state == "Run"} == {0.0}
 
 
 @pytest.mark.parametrize("text", ["G0Z5\nG0X1", "G0X1Y1Z-1\nG0X2Y2", "G0X1Y1Z5\nG55\nX2"])

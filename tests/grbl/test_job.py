@@ -22,16 +22,24 @@ def test_a_machine_in_its_usual_state_needs_nothing_before():
     assert found.position == (1, 2, 3)
 
 
-def test_what_others_left_is_put_right():
-    left = Controller("1.1h", modal=GC.replace("G90", "G91"))
-    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G17G21G90G94G54"]
+@pytest.mark.parametrize(
+    ("usual", "found"), [("G90", "G91"), ("G0", "G80"), ("G21", "G20"), ("G94", "G93")]
+)
+def test_what_others_left_is_put_right(usual, found):
+    left = Controller("1.1h", modal=GC.replace(usual, found))
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G0G17G21G90G94G54"]
+
+
+def test_a_spindle_that_somebody_switched_on_is_not_switched_off_before_the_cut():
+    left = Controller("1.1h", modal=GC.replace("M5", "M3"))
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == []
 
 
 def test_another_system_is_left_unless_the_program_names_g54():
     left = Controller("1.1h", modal=GC.replace("G54", "G55"))
     assert setup(plan(Job(PROGRAM), left, IDLE)) == []
     named = prepare("G54\nG0X0Y0Z5")
-    assert setup(plan(Job(named), left, IDLE)) == ["G17G21G90G94G54"]
+    assert setup(plan(Job(named), left, IDLE)) == ["G0G17G21G90G94G54"]
     assert left.system == "G54"
 
 

@@ -77,6 +77,14 @@ def test_a_spindle_left_on_is_switched_off(port):
     assert port.device.machine.spindle == 0
 
 
+def test_a_spindle_that_turned_before_the_job_is_switched_off_behind_it(port):
+    port.device.machine.startup[0] = "M3S1000"
+    seen = []
+    send("G1X5F600", port, Company(show=seen.append))
+    assert {view.speed for view in seen if view.state == "Run"} == {1000.0}
+    assert port.device.machine.spindle == 0
+
+
 def test_the_error_tells_line_meaning_and_what_became_of_the_machine(port):
     with pytest.raises(MachineError) as caught:
         send("G21\n(note)\nM3S1000\nG1X1F600\nX2Y1X3\nG1X2", port)
