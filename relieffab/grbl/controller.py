@@ -15,6 +15,8 @@ FAST_LINES = 2000.0
 
 SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59")
 _OFFSETS = {*SYSTEMS, "G28", "G30", "G92", "TLO"}
+TELLING = frozenset({"VER", "NEWOPT", "FIRMWARE", "OPT", "GC", *_OFFSETS})
+"""Tags of the notes that a `Controller` learns from; others may differ from answer to answer."""
 _NUMBERS = re.compile(r"(?:^|(?<=,))-?\d+\.\d+(?=,|$)")
 
 
