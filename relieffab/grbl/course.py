@@ -69,6 +69,7 @@ class Course:
         self._step = 2 * resolution
         self._cut = 0.0
         self._seen = False
+        self._skipped: Line | None = None
         self._earlier: deque[Line | None] = deque(maxlen=DOUBTED)
 
     @property
@@ -104,6 +105,12 @@ class Course:
             self._blocks -= self._takes_room(passed)
             self._acknowledged -= 1
             self._pass(passed)
+
+    def refused(self, line: Line) -> None:
+        """Look no further than a line that the machine skipped: it is still to be cut."""
+        self._skipped = line
+        if self.reached is not None and self.reached.index > line.index:
+            self.reached = line
 
     def _takes_room(self, stretch: _Stretch) -> bool:
         """Say whether a line surely became a move: Grbl drops those of less than a step."""
@@ -157,6 +164,9 @@ class Course:
 
     def _see(self, stretch: _Stretch, covered: float) -> None:
         line, cutting = stretch.line, stretch.motion.cutting
+        if self._skipped is not None and line.index > self._skipped.index:
+            self.reached = self._skipped
+            return
         if self.reached is None or line.index > self.reached.index:
             self.reached = line
         self.cut_mm = max(self.cut_mm, stretch.before + (covered if cutting else 0.0))

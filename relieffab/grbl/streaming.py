@@ -153,6 +153,7 @@ class Streaming:
             self.fail(_stray(code))
             return
         if code and not self._checking:
+            self._course.refused(line)
             self.fail(_refused(line, code, behind))
             return
         if code:

@@ -15,6 +15,8 @@ from relieffab.grbl.modal import Modal
 
 WORD = re.compile(r"([A-Z])([-+]?[\d.]+)")
 _PLAIN = re.compile(r"(?:G([01]))?(?:X([-\d.]+))?(?:Y([-\d.]+))?(?:Z([-\d.]+))?(?:F([\d.]+))?")
+SAG = 0.01
+"""mm that a chord may lie inside its arc."""
 FULL_CIRCLE_BELOW = 5e-7
 """Radians of an arc that ends where it begins, within rounding."""
 
@@ -35,7 +37,7 @@ class Motion(NamedTuple):
     ----------
     start : tuple
     points : tuple of tuple
-        Ends of its straight pieces; arcs are cut every degree.
+        Ends of its straight pieces; arcs are cut every degree, large ones more often.
     length : float
         mm, over the axes that are known.
     feed : float
@@ -211,7 +213,7 @@ class Tracker:
                 high[axis] = value
 
     def _arc(self, start: Place, end: Place, centre: dict[str, float]) -> Iterator[Place]:
-        """Points along an arc, a degree apart at most, the end point last."""
+        """Points along an arc, a degree and `SAG` apart at most, the end point last."""
         u, v, w = _PLANES[self.modal.plane]
         scale = self.modal.scale
         a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
@@ -227,7 +229,7 @@ class Tracker:
         turn = -1.0 if clockwise else 1.0
         sweep = turn * (math.atan2(b[v] - cv, b[u] - cu) - begin) % math.tau
         sweep = turn * (sweep if sweep > FULL_CIRCLE_BELOW else math.tau)
-        steps = max(1, math.ceil(abs(sweep) / math.radians(1)))
+        steps = max(1, math.ceil(abs(sweep) / _step(radius)))
         for step in range(1, steps):
             angle = begin + sweep * step / steps
             point = [0.0, 0.0, 0.0]
@@ -236,6 +238,11 @@ class Tracker:
             point[w] = a[w] + (b[w] - a[w]) * step / steps
             yield point[0], point[1], point[2]
         yield end
+
+
+def _step(radius: float) -> float:
+    """Angle of a chord that leaves the arc by `SAG` at most, radians."""
+    return min(math.radians(1), math.sqrt(8 * SAG / radius)) if radius else math.radians(1)
 
 
 def _centre(x0: float, y0: float, x1: float, y1: float, radius: float) -> tuple[float, float]:

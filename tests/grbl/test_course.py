@@ -84,6 +84,15 @@ def test_once_astray_the_last_sightings_are_doubted():
     assert course.reached.number == 6
 
 
+def test_a_line_that_was_skipped_is_where_to_go_on_however_far_the_machine_got():
+    course, lines = on_course("".join(f"G1X{i}\n" for i in range(1, 41)))
+    course.report(at(3.5))
+    course.refused(lines[4])
+    course.report(at(4.5))
+    course.report(at(7.5))
+    assert (course.cut_mm, course.reached) == (4.5, lines[4])
+
+
 def test_lines_that_do_not_move_take_no_room_in_the_planner():
     course, lines = on_course("G1X1\n" + "S100\n" * 40, blocks=5)
     for line in lines:
