@@ -54,7 +54,7 @@ class Course:
     off_mm : float
         Distance of the last report from the program's way; 0 where nothing can be said.
     known : bool
-        False where the program does what cannot be followed.
+        False where the program moves work zero.
     """
 
     def __init__(self, blocks: int, offset: Point, resolution: float = 0.0) -> None:
@@ -142,13 +142,18 @@ class Course:
         return x + ox, y + oy, z + oz
 
     def report(self, status: Status) -> None:
-        """Find the machine on the program."""
+        """Find the machine on the program.
+
+        A way that is not known explains every place that those before it do not.
+        """
         point = self.work_position(status)
         self.off_mm = 0.0
         if point is None or not self.known:
             return
         best, found, covered = math.inf, None, 0.0
         for stretch in self._stretches:
+            if not stretch.motion.known and best <= self._tolerance:
+                continue
             near, along = _nearest(stretch.motion, point)
             if near < best - SAME:
                 best, found, covered = near, stretch, along

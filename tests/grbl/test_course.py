@@ -124,6 +124,24 @@ def test_arcs_are_followed():
     assert course.cut_mm == pytest.approx(10 * 3.14159 / 2, rel=1e-3)
 
 
+def test_ways_that_are_not_known_explain_every_place_but_those_before():
+    course, _ = on_course("G1X10\nG53G0Z9\nG0X0Y5\nG0Z5\nG1X5")
+    course.report(at(4, 0.03))
+    assert (course.reached.number, course.astray) == (1, False)
+    course.report(at(10, 0, 7))
+    assert (course.reached.number, course.astray) == (2, False)
+
+
+def test_behind_a_way_that_is_not_known_the_machine_is_found_again():
+    course, lines = on_course("G53G0Z9\nG0X0Y0\nZ5\n" + "".join(f"G1X{i}\n" for i in range(1, 41)))
+    for line in lines:
+        course.acknowledged(line)
+    course.report(at(38, 0, 5))
+    assert (course.reached.number, course.astray) == (41, False)
+    course.report(at(39, 1, 5))
+    assert course.astray
+
+
 def test_where_the_program_cannot_be_followed_nothing_is_said():
     course, _ = on_course("G1X10")
     course.known = False
