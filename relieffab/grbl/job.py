@@ -52,6 +52,8 @@ class Job:
     unlock : bool
         End its alarm first ($X): a person says that its position is right.
     resume : Resume or None
+    resumable : bool
+        It can be taken up again; an outline or a probe is begun anew.
     """
 
     program: Program
@@ -60,6 +62,7 @@ class Job:
     home: bool = False
     unlock: bool = False
     resume: Resume | None = None
+    resumable: bool = True
 
 
 @dataclass(frozen=True)

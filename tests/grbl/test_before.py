@@ -2,6 +2,7 @@ import pytest
 
 from relieffab.errors import InputError, MachineError
 from relieffab.grbl.before import outline, touch
+from relieffab.grbl.job import Job
 from relieffab.grbl.port import open_port
 from relieffab.grbl.program import prepare
 from relieffab.grbl.sender import Company, send
@@ -44,7 +45,9 @@ def test_a_touch_plate_sets_z():
 
 
 def test_a_plate_that_is_not_there_is_an_alarm_by_name():
-    with open_port(FAST) as port, pytest.raises(MachineError, match="probe found nothing"):
-        send(touch(15.0), port)
+    job = Job(prepare(touch(15.0)), resumable=False)
+    with open_port(FAST) as port, pytest.raises(MachineError, match="probe found") as caught:
+        send(job, port)
+    assert "--from-line" not in str(caught.value)
     with pytest.raises(InputError):
         touch(-1)
