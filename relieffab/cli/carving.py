@@ -28,7 +28,9 @@ def intentions(job: "Job", plan: "Plan") -> Iterator[str]:
     if job.check:
         yield f"check    {len(program):,} lines are read, nothing moves"
         return
-    yield f"program  {len(program):,} lines, {program.cut_mm:,.0f} mm to cut, {ranges} mm"
+    yield f"program  {len(program):,} lines, {program.cut_mm:,.0f} mm to cut" + (
+        f", {ranges} mm" if ranges else ""
+    )
     left = plan.table.total - plan.table.at(plan.first)
     yield f"time     about {clock(left)}"
     if plan.entry is not None:

@@ -126,9 +126,9 @@ def _wanted(
     from relieffab.grbl.program import prepare
 
     if trace:
-        return Job(prepare(outline(program))), None
+        return Job(prepare(outline(program)), resumable=False), None
     if probe is not None:
-        return Job(prepare(touch(units.length(probe)))), None
+        return Job(prepare(touch(units.length(probe))), resumable=False), None
     if check:
         return Job(program, check=True), None
     kept = Kept(program, log)

@@ -36,7 +36,7 @@ def outline(program: Program) -> str:
             found=f"{height:g} mm at most",
         )
     corners = [(x1, y0), (x1, y1), (x0, y1), (x0, y0)]
-    lines = ["G17G21G90G94", f"G0Z{height:.3f}", f"G0X{x0:.3f}Y{y0:.3f}", f"F{TRACE_FEED:g}"]
+    lines = ["G17G21G90G94M5M9", f"G0Z{height:.3f}", f"G0X{x0:.3f}Y{y0:.3f}", f"F{TRACE_FEED:g}"]
     return "\n".join([*lines, *(f"G1X{x:.3f}Y{y:.3f}" for x, y in corners)])
 
 
@@ -52,7 +52,7 @@ def touch(thickness: float) -> str:
         raise InputError("a touch plate is not thinner than nothing", found=f"{thickness:g} mm")
     return "\n".join(
         [
-            "G17G21G91G94",
+            "G17G21G91G94M5M9",
             f"G38.2Z-{HIGHEST_TOUCH:g}F{FIRST_TOUCH:g}",
             f"G0Z{LIFT:g}",
             f"G38.2Z-{2 * LIFT:g}F{SECOND_TOUCH:g}",

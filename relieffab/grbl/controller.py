@@ -15,6 +15,8 @@ FAST_LINES = 2000.0
 
 SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59")
 _OFFSETS = {*SYSTEMS, "G28", "G30", "G92", "TLO"}
+TELLING = frozenset({"VER", "NEWOPT", "FIRMWARE", "OPT", "GC", *_OFFSETS})
+"""Tags of the notes that a `Controller` learns from; others may differ from answer to answer."""
 _NUMBERS = re.compile(r"(?:^|(?<=,))-?\d+\.\d+(?=,|$)")
 
 
@@ -119,6 +121,11 @@ class Controller:
         """The work coordinate system in force."""
         named = [word for word in self.modal.split() if word in SYSTEMS]
         return named[0] if named else "G54"
+
+    @property
+    def quiet(self) -> bool:
+        """True with spindle and coolant off."""
+        return {"M5", "M9"} <= set(self.modal.split())
 
     @property
     def work_zero(self) -> Point:

@@ -54,7 +54,7 @@ class Course:
     off_mm : float
         Distance of the last report from the program's way; 0 where nothing can be said.
     known : bool
-        False where the program does what cannot be followed.
+        False where the program moves work zero.
     """
 
     def __init__(self, blocks: int, offset: Point, resolution: float = 0.0) -> None:
@@ -69,6 +69,7 @@ class Course:
         self._step = 2 * resolution
         self._cut = 0.0
         self._seen = False
+        self._skipped: Line | None = None
         self._earlier: deque[Line | None] = deque(maxlen=DOUBTED)
 
     @property
@@ -105,6 +106,12 @@ class Course:
             self._acknowledged -= 1
             self._pass(passed)
 
+    def refused(self, line: Line) -> None:
+        """Look no further than a line that the machine skipped: it is still to be cut."""
+        self._skipped = line
+        if self.reached is not None and self.reached.index > line.index:
+            self.reached = line
+
     def _takes_room(self, stretch: _Stretch) -> bool:
         """Say whether a line surely became a move: Grbl drops those of less than a step."""
         return stretch.motion.length > self._step
@@ -135,13 +142,18 @@ class Course:
         return x + ox, y + oy, z + oz
 
     def report(self, status: Status) -> None:
-        """Find the machine on the program."""
+        """Find the machine on the program.
+
+        A way that is not known explains every place that those before it do not.
+        """
         point = self.work_position(status)
         self.off_mm = 0.0
         if point is None or not self.known:
             return
         best, found, covered = math.inf, None, 0.0
         for stretch in self._stretches:
+            if not stretch.motion.known and best <= self._tolerance:
+                continue
             near, along = _nearest(stretch.motion, point)
             if near < best - SAME:
                 best, found, covered = near, stretch, along
@@ -157,6 +169,9 @@ class Course:
 
     def _see(self, stretch: _Stretch, covered: float) -> None:
         line, cutting = stretch.line, stretch.motion.cutting
+        if self._skipped is not None and line.index > self._skipped.index:
+            self.reached = self._skipped
+            return
         if self.reached is None or line.index > self.reached.index:
             self.reached = line
         self.cut_mm = max(self.cut_mm, stretch.before + (covered if cutting else 0.0))

@@ -200,7 +200,8 @@ class Drive:
             where = f"{where} ({count})" if where else count
         outcome = _UNPLUGGED if self.lost else session.outcome
         again = ""
-        if session.started is not None and session.reached is not None and not self.job.check:
+        resumable = self.job.resumable and not self.job.check
+        if session.started is not None and session.reached is not None and resumable:
             kept = session.position_kept and not self.lost
             again = f"to go on, send again with --from-line {session.reached.number}" + (
                 "" if kept else " and --zero-set, once work zero is set again"

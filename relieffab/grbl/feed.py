@@ -53,8 +53,8 @@ class Feed:
 
     @property
     def followed(self) -> bool:
-        """False once a line could not be followed."""
-        return self.tracker.certain
+        """False once work zero was moved."""
+        return self.tracker.followed
 
 
 def alone(line: Line) -> bool:

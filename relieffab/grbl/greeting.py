@@ -8,7 +8,7 @@ enlarges the buffer nor moves work zero.
 """
 
 from relieffab.grbl.codes import error_meaning
-from relieffab.grbl.controller import Controller
+from relieffab.grbl.controller import TELLING, Controller
 from relieffab.grbl.messages import Acknowledgement, Alarm, Banner, Message, Note, Setting, Status
 from relieffab.grbl.stage import STATUS, Failure, Fault, Patience
 
@@ -64,9 +64,8 @@ class Greeting:
                 self._unsolicited(message, now)
         elif isinstance(message, Acknowledgement) and self._asked in QUESTIONS:
             self._answered(message, now)
-        elif isinstance(message, (Setting, Note)):
-            if not (isinstance(message, Note) and message.tag in ("MSG", "PRB")):
-                self._heard.append(message)
+        elif isinstance(message, Setting) or (isinstance(message, Note) and message.tag in TELLING):
+            self._heard.append(message)
         elif isinstance(message, Status) and self._asked == STATUS:
             self.controller.limit_buffer(message.bytes_free or 0)
             self._judge(message)

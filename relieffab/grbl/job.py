@@ -11,7 +11,7 @@ from relieffab.grbl.resume import Entry, entry, zero_lost
 from relieffab.grbl.review import review
 from relieffab.grbl.stage import Failure, Fault
 
-_EXPECTED = ("G17", "G21", "G90", "G94")
+_EXPECTED = ("G0", "G17", "G21", "G90", "G94")
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,8 @@ class Job:
     unlock : bool
         End its alarm first ($X): a person says that its position is right.
     resume : Resume or None
+    resumable : bool
+        It can be taken up again; an outline or a probe is begun anew.
     """
 
     program: Program
@@ -60,6 +62,7 @@ class Job:
     home: bool = False
     unlock: bool = False
     resume: Resume | None = None
+    resumable: bool = True
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,10 @@ def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
 
 
 def _setup(job: Job, controller: Controller) -> list[Program]:
-    """Bring the machine to the state that a program may expect, that of a reset."""
+    """Bring the machine to the state that a program may expect, that of a reset.
+
+    Only a spindle that a person has switched on is left on: the program may count on it.
+    """
     setup = [commands("$H")] if job.home else [commands("$X")] if job.unlock else []
     if job.check:
         return [*setup, commands("$C")]

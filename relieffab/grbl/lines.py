@@ -10,9 +10,10 @@ LONGEST_LINE = 79
 _COMMENT = re.compile(r"\([^)]*\)?|;.*")
 _WORDS = re.compile(r"(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+))+")
 _SETTING = re.compile(r"\$(?:\d{1,3}=-?\d+\.?\d*|N[01]=(?:[A-Z][-+]?(?:\d+\.?\d*|\.\d+))*)")
-_STORES = re.compile(r"G0*10(?![\d.])|G0*(?:28|30)\.10*(?!\d)")
+_STORES = re.compile(r"G0*10(?:\.0*)?(?![\d.])|G0*(?:28|30)\.10*(?!\d)")
 _PAUSE = re.compile(r"M0+(?![\d.])")
-_DWELL = re.compile(r"G0*4(?![\d.]).*?P([\d.]+)|P([\d.]+).*?G0*4(?![\d.])")
+_G4 = r"G0*4(?:\.0*)?(?![\d.])"
+_DWELL = re.compile(rf"{_G4}.*?P\+?([\d.]+)|P\+?([\d.]+).*?{_G4}")
 
 
 def clean(line: str) -> str:

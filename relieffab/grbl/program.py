@@ -83,7 +83,8 @@ class Program:
     speed : float
         Highest S, rpm.
     codes : dict
-        G and M words it uses (plain G0 and G1 may be left out) -> first line of the source.
+        G and M words it uses (plain G0 and G1 may be left out), and letters beyond Grbl's own
+        -> first line of the source.
     digest : str
         SHA-256 of the clean lines, in hexadecimal: comments do not count.
     """

@@ -114,7 +114,8 @@ class Session:
         if self.plan.entry is not None:
             self._queue.append(self.plan.entry)
         self._queue.append(self._job.program)
-        if not self._job.check and not self._job.program.quiet:
+        quiet = self._job.program.quiet and self.controller is not None and self.controller.quiet
+        if not self._job.check and not quiet:
             self._queue.append(commands(*_CLOSING))
         self._pace = Pace(self.plan.table, self.plan.first)
         # followed up to its first line before the spindle turns: that may take seconds

@@ -74,10 +74,10 @@ def entry(program: Program, *, number: int | None = None, index: int = 0) -> Ent
             found=str(index if number is None else number),
         )
     where = f"line {last.number}"
-    if not tracker.certain:
+    if not tracker.followed:
         raise InputError(
             "the state in front of this line cannot be rebuilt",
-            found="offsets, stored positions or probing (G10, G28, G53, G55-G59, G92...) before it",
+            found="work zero is moved before it (G10, G43.1, G55-G59, G92...)",
             where=where,
         )
     return Entry(

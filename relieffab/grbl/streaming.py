@@ -132,8 +132,8 @@ class Streaming:
             if not window.fits(len(line.wire)):
                 break
             if alone(line):
-                if len(window) or (line.wire[:1] == b"$" and self._idle < IDLE_REPORTS):
-                    break
+                if len(window) or self._idle < IDLE_REPORTS:
+                    break  # it would wait for the moves, and nobody ask how it is
                 self._alone = True
                 homes = lines.homes(line.text)
                 self._silence = self._patience.homing if homes else self._patience.answer
@@ -153,6 +153,7 @@ class Streaming:
             self.fail(_stray(code))
             return
         if code and not self._checking:
+            self._course.refused(line)
             self.fail(_refused(line, code, behind))
             return
         if code:

@@ -1,8 +1,9 @@
 """Where a program goes, followed line by line: for bounds, for progress, for finding the tool.
 
-Not an interpreter: just enough modal state to place every move.  Where a program does what
-cannot be followed (G28, G53, G92, G10, probing, other work coordinate systems), positions
-go on from the next named one and `certain` turns False.
+Not an interpreter: just enough modal state to place every move.  Where a program goes to
+places it does not name in work coordinates (G28, G30, G53, probing), positions go on from the
+next named one and `certain` turns False.  Where it moves work zero (G10, G92, tool lengths,
+other work coordinate systems), `followed` does, too.
 """
 
 import math
@@ -15,6 +16,8 @@ from relieffab.grbl.modal import Modal
 
 WORD = re.compile(r"([A-Z])([-+]?[\d.]+)")
 _PLAIN = re.compile(r"(?:G([01]))?(?:X([-\d.]+))?(?:Y([-\d.]+))?(?:Z([-\d.]+))?(?:F([\d.]+))?")
+SAG = 0.01
+"""mm that a chord may lie inside its arc."""
 FULL_CIRCLE_BELOW = 5e-7
 """Radians of an arc that ends where it begins, within rounding."""
 
@@ -22,9 +25,11 @@ Place = tuple[float | None, float | None, float | None]
 """X, Y, Z in work coordinates, mm; None where an axis is not known."""
 
 _PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
+_PLAIN_LETTERS = "LNPT"
 _PROBING = {38.2, 38.3, 38.4, 38.5}
-_AWAY = {28.0, 30.0, 53.0, 92.0, 92.1, *_PROBING}
-_UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, 49.0, *_AWAY, *map(float, range(55, 60))}
+_AWAY = {28.0, 30.0, 53.0, *_PROBING}
+_SHIFTS = {92.0, 92.1}
+_UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, 49.0, *_SHIFTS, *map(float, range(55, 60))}
 
 
 class Motion(NamedTuple):
@@ -34,7 +39,7 @@ class Motion(NamedTuple):
     ----------
     start : tuple
     points : tuple of tuple
-        Ends of its straight pieces; arcs are cut every degree.
+        Ends of its straight pieces; arcs are cut every degree, large ones more often.
     length : float
         mm, over the axes that are known.
     feed : float
@@ -45,6 +50,11 @@ class Motion(NamedTuple):
     points: tuple[Place, ...]
     length: float
     feed: float
+
+    @property
+    def known(self) -> bool:
+        """True where it begins and ends at known places."""
+        return None not in self.start and None not in self.points[-1]
 
     @property
     def cutting(self) -> bool:
@@ -67,13 +77,15 @@ class Tracker:
     low, high : list of 3 (float or None)
         Bounds of the named positions; None on an axis never named.
     certain : bool
-        False once a line could not be followed, so that the bounds may be wrong.
+        False once a line went somewhere unknown, so that the bounds may be wrong.
+    followed : bool
+        False once work zero was moved, so that positions may be wrong for good.
     plunge : float
         Slowest feed of a descending cut so far, mm/min; inf where there was none.
     fastest_spindle : float
         Highest S named, rpm.
     codes : set of str
-        G and M words met so far, such as ``G54``.
+        G and M words met so far, such as ``G54``, and letters beyond Grbl's own, such as ``A``.
     """
 
     def __init__(self, position: Place = (None, None, None)) -> None:
@@ -81,7 +93,7 @@ class Tracker:
         self.position = position
         self.low: list[float | None] = [None, None, None]
         self.high: list[float | None] = [None, None, None]
-        self.certain = True
+        self.certain = self.followed = True
         self.plunge = math.inf
         self.fastest_spindle = 0.0
         self.codes: set[str] = set()
@@ -135,7 +147,7 @@ class Tracker:
     def _any(self, line: str) -> Motion | None:
         axes: dict[int, float] = {}
         centre: dict[str, float] = {}
-        away = False
+        away = shifts = False
         if line.startswith("$"):
             return None
         for letter, text in WORD.findall(line):
@@ -145,8 +157,9 @@ class Tracker:
             elif letter == "G":
                 self.codes.add(f"G{value:g}")
                 self.modal = self.modal.with_g(value)
-                self.certain = self.certain and value not in _UNFOLLOWED
+                self.followed = self.followed and value not in _UNFOLLOWED
                 away = away or value in _AWAY
+                shifts = shifts or value in _SHIFTS
             elif letter in "IJKR":
                 centre[letter] = value
             elif letter == "F":
@@ -157,14 +170,20 @@ class Tracker:
             elif letter == "M":
                 self.codes.add(f"M{value:g}")
                 self.modal = self.modal.with_m(value)
-        if away or self.modal.motion in _PROBING:
-            self._forget(axes)
-            return None
+            elif letter not in _PLAIN_LETTERS:
+                self.codes.add(letter)
+        away = away or (bool(axes) and self.modal.motion in _PROBING)
+        self.certain = self.certain and self.followed and not away
+        if away or shifts:
+            return self._forget(axes)
         return self._move(axes, centre) if axes or centre else None
 
-    def _forget(self, axes: dict[int, float]) -> None:
-        x, y, z = (None if not axes or a in axes else self.position[a] for a in range(3))
+    def _forget(self, axes: dict[int, float]) -> Motion:
+        """Go somewhere unknown, on the axes named or on all."""
+        start = self.position
+        x, y, z = (None if not axes or a in axes else start[a] for a in range(3))
         self.position = (x, y, z)
+        return Motion(start, (self.position,), 0.0, math.inf)
 
     def _move(self, axes: dict[int, float], centre: dict[str, float]) -> Motion:
         start, modal = self.position, self.modal
@@ -208,7 +227,7 @@ class Tracker:
                 high[axis] = value
 
     def _arc(self, start: Place, end: Place, centre: dict[str, float]) -> Iterator[Place]:
-        """Points along an arc, a degree apart at most, the end point last."""
+        """Points along an arc, a degree and `SAG` apart at most, the end point last."""
         u, v, w = _PLANES[self.modal.plane]
         scale = self.modal.scale
         a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
@@ -224,7 +243,7 @@ class Tracker:
         turn = -1.0 if clockwise else 1.0
         sweep = turn * (math.atan2(b[v] - cv, b[u] - cu) - begin) % math.tau
         sweep = turn * (sweep if sweep > FULL_CIRCLE_BELOW else math.tau)
-        steps = max(1, math.ceil(abs(sweep) / math.radians(1)))
+        steps = max(1, math.ceil(abs(sweep) / _step(radius)))
         for step in range(1, steps):
             angle = begin + sweep * step / steps
             point = [0.0, 0.0, 0.0]
@@ -233,6 +252,11 @@ class Tracker:
             point[w] = a[w] + (b[w] - a[w]) * step / steps
             yield point[0], point[1], point[2]
         yield end
+
+
+def _step(radius: float) -> float:
+    """Angle of a chord that leaves the arc by `SAG` at most, radians."""
+    return min(math.radians(1), math.sqrt(8 * SAG / radius)) if radius else math.radians(1)
 
 
 def _centre(x0: float, y0: float, x1: float, y1: float, radius: float) -> tuple[float, float]:

@@ -2,9 +2,10 @@ import pytest
 
 from relieffab.errors import InputError, MachineError
 from relieffab.grbl.before import outline, touch
+from relieffab.grbl.job import Job
 from relieffab.grbl.port import open_port
 from relieffab.grbl.program import prepare
-from relieffab.grbl.sender import send
+from relieffab.grbl.sender import Company, send
 
 FAST = "sim://?speed=max&boot=0.1"
 
@@ -17,6 +18,15 @@ def test_the_outline_is_traced_above_the_stock_with_the_spindle_off():
     assert {point[2] for point in machine.path} == {5.0}
     corners = [(2, 3), (42, 3), (42, 33), (2, 33), (2, 3)]
     assert [point[:2] for point in machine.path[1:]] == [pytest.approx(c) for c in corners]
+
+
+@pytest.mark.parametrize("text", [outline(prepare("G0X2Y3Z5\nG1X9Y9F300")), touch(15.0)])
+def test_a_spindle_that_turns_is_switched_off_first(text):
+    seen = []
+    with open_port(FAST + "&plate=-7.5") as port:
+        port.device.machine.startup[0] = "M3S1000"
+        send(text, port, Company(show=seen.append))
+    assert {view.speed for view in seen if view.state == "Run"} == {0.0}
 
 
 @pytest.mark.parametrize("text", ["G0Z5\nG0X1", "G0X1Y1Z-1\nG0X2Y2", "G0X1Y1Z5\nG55\nX2"])
@@ -35,7 +45,9 @@ def test_a_touch_plate_sets_z():
 
 
 def test_a_plate_that_is_not_there_is_an_alarm_by_name():
-    with open_port(FAST) as port, pytest.raises(MachineError, match="probe found nothing"):
-        send(touch(15.0), port)
+    job = Job(prepare(touch(15.0)), resumable=False)
+    with open_port(FAST) as port, pytest.raises(MachineError, match="probe found") as caught:
+        send(job, port)
+    assert "--from-line" not in str(caught.value)
     with pytest.raises(InputError):
         touch(-1)

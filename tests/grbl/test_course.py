@@ -84,6 +84,15 @@ def test_once_astray_the_last_sightings_are_doubted():
     assert course.reached.number == 6
 
 
+def test_a_line_that_was_skipped_is_where_to_go_on_however_far_the_machine_got():
+    course, lines = on_course("".join(f"G1X{i}\n" for i in range(1, 41)))
+    course.report(at(3.5))
+    course.refused(lines[4])
+    course.report(at(4.5))
+    course.report(at(7.5))
+    assert (course.cut_mm, course.reached) == (4.5, lines[4])
+
+
 def test_lines_that_do_not_move_take_no_room_in_the_planner():
     course, lines = on_course("G1X1\n" + "S100\n" * 40, blocks=5)
     for line in lines:
@@ -113,6 +122,24 @@ def test_arcs_are_followed():
     course.report(at(0, 10))
     assert course.off_mm < 0.01
     assert course.cut_mm == pytest.approx(10 * 3.14159 / 2, rel=1e-3)
+
+
+def test_ways_that_are_not_known_explain_every_place_but_those_before():
+    course, _ = on_course("G1X10\nG53G0Z9\nG0X0Y5\nG0Z5\nG1X5")
+    course.report(at(4, 0.03))
+    assert (course.reached.number, course.astray) == (1, False)
+    course.report(at(10, 0, 7))
+    assert (course.reached.number, course.astray) == (2, False)
+
+
+def test_behind_a_way_that_is_not_known_the_machine_is_found_again():
+    course, lines = on_course("G53G0Z9\nG0X0Y0\nZ5\n" + "".join(f"G1X{i}\n" for i in range(1, 41)))
+    for line in lines:
+        course.acknowledged(line)
+    course.report(at(38, 0, 5))
+    assert (course.reached.number, course.astray) == (41, False)
+    course.report(at(39, 1, 5))
+    assert course.astray
 
 
 def test_where_the_program_cannot_be_followed_nothing_is_said():

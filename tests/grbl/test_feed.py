@@ -3,7 +3,7 @@ import pytest
 from relieffab.grbl.feed import Feed, alone
 from relieffab.grbl.program import Line, prepare
 
-PROGRAM = prepare("G0X0Y0Z5\nG1X3F60\nG1X7\nG28\nG1X9")
+PROGRAM = prepare("G0X0Y0Z5\nG1X3F60\nG1X7\nG92X0\nG1X9")
 
 
 def test_lines_come_with_their_way():

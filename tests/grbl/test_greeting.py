@@ -62,6 +62,14 @@ def test_an_altered_answer_is_asked_again_and_never_believed():
     assert greeting.controller.buffer == 128
 
 
+def test_what_changes_by_itself_need_not_agree():
+    greeting = Greeting(Patience(), 0.0)
+    greet(greeting, [BANNER])
+    for free in (102, 101):
+        out = greet(greeting, ["[OPT:V,100,1024]", f"[FREE MEMORY:{free}K]", "[MSG:hello]", "ok"])
+    assert out == b"$$\n"
+
+
 def test_half_an_answer_is_no_answer():
     greeting = Greeting(Patience(), 0.0)
     out = greet(greeting, [BANNER])

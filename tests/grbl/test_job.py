@@ -22,16 +22,24 @@ def test_a_machine_in_its_usual_state_needs_nothing_before():
     assert found.position == (1, 2, 3)
 
 
-def test_what_others_left_is_put_right():
-    left = Controller("1.1h", modal=GC.replace("G90", "G91"))
-    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G17G21G90G94G54"]
+@pytest.mark.parametrize(
+    ("usual", "found"), [("G90", "G91"), ("G0", "G80"), ("G21", "G20"), ("G94", "G93")]
+)
+def test_what_others_left_is_put_right(usual, found):
+    left = Controller("1.1h", modal=GC.replace(usual, found))
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == ["G0G17G21G90G94G54"]
+
+
+def test_a_spindle_that_somebody_switched_on_is_not_switched_off_before_the_cut():
+    left = Controller("1.1h", modal=GC.replace("M5", "M3"))
+    assert setup(plan(Job(PROGRAM), left, IDLE)) == []
 
 
 def test_another_system_is_left_unless_the_program_names_g54():
     left = Controller("1.1h", modal=GC.replace("G54", "G55"))
     assert setup(plan(Job(PROGRAM), left, IDLE)) == []
     named = prepare("G54\nG0X0Y0Z5")
-    assert setup(plan(Job(named), left, IDLE)) == ["G17G21G90G94G54"]
+    assert setup(plan(Job(named), left, IDLE)) == ["G0G17G21G90G94G54"]
     assert left.system == "G54"
 
 
@@ -50,15 +58,11 @@ def test_a_check_begins_with_check_mode():
     ("resume", "number"),
     [
         (Resume(line=20, zero_set=True), 20),
-        (Resume(seconds=0.0, zero_set=True), 1),
         (Resume(Record("", 9, (1, 2, 3), (0, 0, 0), True, "x")), 9),
         (Resume(Record("", 9, (1, 2, 3), (0, 0, 0), True, "x"), line=12), 12),
     ],
 )
 def test_where_a_job_is_taken_up(resume, number):
-    if number == 1:
-        resume = Resume(line=2, zero_set=True)
-        number = 2
     found = plan(Job(PROGRAM, resume=resume), Controller("1.1h", modal=GC), IDLE)
     assert found.number == found.entry.number == number
 

@@ -6,7 +6,7 @@ from relieffab.grbl.lines import dwell_seconds, pauses, stores
 @pytest.mark.parametrize(
     ("line", "alone"),
     [("G10L2P1X0", True), ("G28.1", True), ("G30.10", True), ("G90G10L20P1Z0", True),
-     ("$110=900", True), ("$N0=G21", True),
+     ("$110=900", True), ("$N0=G21", True), ("G10.0L2P1", True), ("G10.1", False),
      ("G28", False), ("G1X10", False), ("G100", False), ("X28.1", False)],
 )  # fmt: skip
 def test_lines_that_write_the_eeprom(line, alone):
@@ -14,7 +14,8 @@ def test_lines_that_write_the_eeprom(line, alone):
 
 
 @pytest.mark.parametrize(
-    ("line", "seconds"), [("G4P2.5", 2.5), ("P1G04", 1.0), ("G1X1", 0.0), ("G43.1Z1", 0.0)]
+    ("line", "seconds"),
+    [("G4P2.5", 2.5), ("P1G04", 1.0), ("G4.0P+2", 2.0), ("G1X1", 0.0), ("G43.1Z1", 0.0)],
 )
 def test_dwell(line, seconds):
     assert dwell_seconds(line) == seconds

@@ -54,7 +54,7 @@ class Scripted:
             b"$I\n": b"[VER:1.1h:]\r\n[OPT:V,15,%d]\r\n" % self.buffer,
             b"$$\n": NEEDED,
             b"$#\n": b"[G54:0.000,0.000,0.000]\r\n",
-            b"$G\n": b"[GC:G0 G54 G17 G21 G90 G94]\r\n",
+            b"$G\n": b"[GC:G0 G54 G17 G21 G90 G94 M5 M9]\r\n",
         }
         if line in answers:
             self.replies.append((answers[line], 0))

@@ -44,12 +44,14 @@ def test_what_cannot_carve_is_refused(known, word):
 
 
 def test_codes_grbl_does_not_know_are_named_with_their_line():
-    program = prepare("G0X1\nM6T1\nG43H1\nM7\nM7")
+    program = prepare("N5G0X1T1\nM6T1\nG43Z1\nM7\nM7\nG1X2A3F60")
     found = review(program, controller()).refusals
-    assert [text.split(" is")[0] for text in found] == ["line 2: M6", "line 3: G43", "line 4: M7"]
+    assert [text.split(" is")[0] for text in found] == [
+        "line 2: M6", "line 3: G43", "line 4: M7", "line 6: A"
+    ]  # fmt: skip
     mist = controller()
     mist.options = "VM"
-    assert len(review(program, mist).refusals) == 2
+    assert len(review(program, mist).refusals) == 3
     hal = controller()
     hal.hal = True
     assert review(program, hal).refusals == ()

@@ -65,8 +65,23 @@ def test_the_length_cut_agrees_with_the_machine_on_arcs_too(port):
     assert driven == pytest.approx(report.cut_mm, rel=2e-3)
 
 
+def test_an_offset_stored_behind_a_slow_move_is_waited_for(port):
+    report = send("G21G90\nG1X3F20\nG10L20P1X0\nG1X2F600", port)
+    assert report.lines == 4
+    assert report.seconds > 9
+    assert report.position == (5, 0, 0)
+
+
 def test_a_spindle_left_on_is_switched_off(port):
     send("M3S1000\nG1X1F600", port)
+    assert port.device.machine.spindle == 0
+
+
+def test_a_spindle_that_turned_before_the_job_is_switched_off_behind_it(port):
+    port.device.machine.startup[0] = "M3S1000"
+    seen = []
+    send("G1X5F600", port, Company(show=seen.append))
+    assert {view.speed for view in seen if view.state == "Run"} == {1000.0}
     assert port.device.machine.spindle == 0
 
 

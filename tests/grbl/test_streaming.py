@@ -57,20 +57,21 @@ def test_status_is_asked_for_five_times_a_second_at_most():
 def test_an_eeprom_line_goes_alone():
     streaming = stream("G0X1\nG10L2P1X0\nG0X2\nG0X3")
     assert streaming.give(0.0) == b"G0X1\n"
-    take(streaming, "ok")
+    take(streaming, "ok", IDLE, IDLE)
     assert streaming.give(0.0) == b"G10L2P1X0\n"
     assert streaming.give(0.5) == b""
     take(streaming, "ok")
     assert streaming.give(0.5) == b"G0X2\nG0X3\n?"
 
 
-def test_a_setting_waits_for_a_machine_at_rest():
-    streaming = stream("G0X0\n$110=900\nG0X3")
+@pytest.mark.parametrize("line", ["$110=900", "G10L2P1X0", "G28.1"])
+def test_what_is_stored_waits_for_a_machine_at_rest(line):
+    streaming = stream(f"G0X0\n{line}\nG0X3")
     assert streaming.give(0.0) == b"G0X0\n"
-    take(streaming, "ok", IDLE)
+    take(streaming, "ok", RUN, IDLE)
     assert streaming.give(0.0) == b""
     take(streaming, IDLE)
-    assert streaming.give(0.0) == b"$110=900\n"
+    assert streaming.give(0.0) == f"{line}\n".encode()
 
 
 def test_an_error_names_its_own_line_not_the_last_one_sent():

@@ -1,4 +1,5 @@
 import math
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -54,6 +55,26 @@ def test_what_cannot_be_followed_is_admitted(line):
     assert not follow(line)[0].certain
 
 
+@pytest.mark.parametrize(
+    ("line", "followed"),
+    [("G28", True), ("G91G30Z0", True), ("G53G0Z0", True), ("G38.2Z-9F50", True),
+     ("G92X0", False), ("G55", False), ("G10L20P1X0", False), ("G43.1Z3", False)],
+)  # fmt: skip
+def test_places_are_found_again_unless_work_zero_moves(line, followed):
+    tracker, _ = follow("G0X1Y2Z3", line, "G90", "G0X1", "G0Y2", "G0Z3")
+    assert tracker.followed is followed
+    assert tracker.position == (1, 2, 3)
+
+
+def test_only_the_axes_named_go_away():
+    tracker = Tracker((1.0, 2.0, 3.0))
+    motion = tracker.follow("G53G0Z-1")
+    assert (motion.known, motion.length, tracker.position) == (False, 0, (1, 2, None))
+    tracker.follow("G38.2X9F20")
+    assert tracker.follow("M5") is None
+    assert tracker.position == (None, 2, None)
+
+
 def test_a_plain_program_is_certain():
     assert follow("G21G90G54G17", "G0X0Y0", "G1X5F100")[0].certain
 
@@ -98,3 +119,12 @@ def test_the_slowest_plunge_and_the_feeds_are_known():
     assert tracker.plunge == 100
     assert Tracker((0, 0, 0)).follow("G93G1X10F2").feed == 20
     assert Tracker((0, 0, 0)).follow("G0X1").feed == math.inf
+
+
+@pytest.mark.parametrize("radius", [0.5, 30.0, 3000.0])
+def test_chords_keep_to_the_arc_however_large_it_is(radius):
+    tracker = Tracker((radius, 0.0, 0.0))
+    motion = tracker.follow(f"G3X0Y{radius}I-{radius}F600")
+    corners = [motion.start, *motion.points]
+    middles = [[(p + q) / 2 for p, q in zip(a, b, strict=True)] for a, b in pairwise(corners)]
+    assert max(radius - math.hypot(x, y) for x, y, _ in middles) < 0.011
