@@ -55,5 +55,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "template.svg": ["to_svg"],
         "toolpath.path": ["Toolpath"],
         "toolpath.plan": ["plan"],
+        "toolpath.positions": ["Position", "positions"],
     },
 )

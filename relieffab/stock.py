@@ -33,6 +33,8 @@ class Stock:
     frame : Frame or None
     holes : tuple of Hole
     keyholes : tuple of Keyhole
+    turned : bool
+        Whether it lies on the machine turned half round about Z.
 
     Raises
     ------
@@ -49,6 +51,7 @@ class Stock:
     frame: Frame | None = None
     holes: tuple[Hole, ...] = ()
     keyholes: tuple[Keyhole, ...] = ()
+    turned: bool = False
 
     def __post_init__(self) -> None:
         for name in ("width", "height", "thickness"):
@@ -80,6 +83,18 @@ class Stock:
     def outline(self) -> Outline:
         """Its outline."""
         return Outline(self.shape, self.width, self.height, self.corner)
+
+    def to_work(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Turn panel coordinates (n, 3) into those of programs, mm."""
+        return (np.asarray(points, float) - self.work_zero) * self._way
+
+    def to_panel(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Turn coordinates of programs (n, 3) into the panel's, mm."""
+        return np.asarray(points, float) * self._way + self.work_zero
+
+    @property
+    def _way(self) -> tuple[float, float, float]:
+        return (-1.0, -1.0, 1.0) if self.turned else (1.0, 1.0, 1.0)
 
     @property
     def plain(self) -> bool:

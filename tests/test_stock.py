@@ -109,3 +109,10 @@ def test_bad_words_and_sizes():
         Stock.zeroed((1.0, 1.0, 1.0), "centre", "middle")
     with pytest.raises(InputError, match="width cannot be 0"):
         Stock(0.0, 1.0, 1.0)
+
+
+def test_a_turned_stock_is_seen_from_its_far_side():
+    stock = Stock(120.0, 90.0, 12.0, work_zero=(120.0, 90.0, -12.0), turned=True)
+    work = stock.to_work([[120.0, 90.0, 0.0], [0.0, 80.0, -1.0]])
+    assert work.tolist() == [[0.0, 0.0, 12.0], [120.0, 10.0, 11.0]]
+    assert stock.to_panel(work).tolist() == [[120.0, 90.0, 0.0], [0.0, 80.0, -1.0]]

@@ -111,7 +111,13 @@ def _solid(name: str, part: Mapping[str, Any], folder: Path) -> None:
 def _programs(report: Mapping[str, Any], folder: Path) -> None:
     from relieffab.job.page import clock
 
+    placing = ""
     for part in report.get("programs", []):
+        if part.get("placing", "") != placing:
+            placing = part["placing"]
+            place = part["position"]
+            zero = "work zero at X {:g} Y {:g} mm of the panel".format(*place["zero"])
+            print(f"position {place['number']} of {place['count']}: {placing}; {zero}")
         print(
             f"program  {folder / part['file']}  {part['cutter']['name']}, {part['lines']:,} lines, "
             f"{clock(part['seconds'])}"
@@ -129,6 +135,9 @@ def verdict(part: Mapping[str, Any]) -> None:
         f"verified {word}: gouge {part['gouge_mm']:.4f} mm, "
         f"{part['within_tolerance']:.2%} of the figure within {part['tolerance_mm']:g} mm"
     )
+    for seam in part.get("seams", []):
+        one, other = seam["between"]
+        print(f"seam     of positions {one} and {other}: 99 % within {seam['error_mm']:.3f} mm")
     for finding in part["findings"]:
         message(f"finding: {finding}")
 

@@ -28,7 +28,7 @@ def demo(
 
     with console.progress_bar() as progress:
         report = run.make(settings_of(None, flags), output, overwrite=overwrite, progress=progress)
-    program = next(p["file"] for p in report["programs"] if p["file"].startswith("02"))
+    program = next(p["file"] for p in report["programs"] if "02-finish" in p["file"])
     console.message(f"streaming {output / program} to a simulated Grbl machine")
     sent = stream((output / program).read_text(encoding="ascii"), SIMULATED)
     status = console.result(report, output, as_json=as_json)

@@ -18,7 +18,7 @@ from relieffab.job.table import TABLE, Setting
 PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
 TOOLPATH_SETTINGS = (
     *("machine", "material", "rough", "finish", "lines", "stepover", "scallop", "rows", "milling"),
-    *("units", "work_zero", "work_zero_z", "plate", "cutter_change"),
+    *("units", "work_zero", "work_zero_z", "positions", "overlap", "plate", "cutter_change"),
 )
 TEMPLATE_SETTINGS = ("paper",)
 STOCK_SETTINGS = (

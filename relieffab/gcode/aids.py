@@ -20,7 +20,8 @@ def outline_program(setup: Setup) -> str:
     """Write a program that goes round the stock at the safe height, spindle off.
 
     It starts and ends above the near left corner: whoever watches sees whether the
-    panel lies where work zero says, and whether clamps are in the way.
+    panel lies where work zero says, and whether clamps are in the way.  Of a panel cut
+    part by part it goes round the part.
 
     Parameters
     ----------
@@ -32,10 +33,12 @@ def outline_program(setup: Setup) -> str:
         If the stock is larger than the machine's travel.
     """
     post, stock = setup.post, setup.stock
-    x0, y0, z0 = stock.work_zero
-    high = post.length(setup.machine.safe_height - z0)
-    corners = [(0, 0), (stock.width, 0), (stock.width, stock.height), (0, stock.height), (0, 0)]
-    places = [[post.number(round(mm * post.per_mm)) for mm in (x - x0, y - y0)] for x, y in corners]
+    high = post.length(setup.machine.safe_height - stock.work_zero[2])
+    (x0, y0), (x1, y1) = setup.window
+    corners = stock.to_work([(x, y, 0) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))])
+    around = np.roll(corners, 2, axis=0) if stock.turned else corners
+    around = np.concatenate([around, around[:1]])[:, :2].tolist()
+    places = [[post.number(round(mm * post.per_mm)) for mm in corner] for corner in around]
     feed = post.feed(min(FEED, *setup.machine.max_rate[:2]))
     slow = f" F{feed}" if post.dialect.rapid_feed else ""
     rise = f" F{post.feed(setup.machine.max_rate[2])}" if post.dialect.rapid_feed else ""
@@ -105,7 +108,9 @@ def _head(setup: Setup, what: str) -> Iterator[str]:
     sign = setup.post.dialect.comments
     before, after = ("(", ")") if sign == "(" else ("; ", "")
     x, y, z = setup.stock.work_zero
-    for text in (what, f"work zero: X {x:g} Y {y:g} Z {z:g} mm from the near left corner's face"):
+    placing = () if setup.position is None else (setup.position.placing,)
+    zero = f"work zero: X {x:g} Y {y:g} Z {z:g} mm from the near left corner's face"
+    for text in (what, *placing, zero):
         yield f"{before}{harmless(text)}{after}"
 
 

@@ -43,7 +43,7 @@ def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
     for _ in range(_ROUNDS):
         # As it will be written: a node at the cutter's rim is cut or not by a rounded step.
         written = stepped(path.points, setup.stock, setup.post) / setup.post.per_mm
-        bites = slab.copy().cut(written + np.asarray(setup.stock.work_zero), path.cutter)
+        bites = slab.copy().cut(setup.stock.to_panel(written), path.cutter)
         bad = (bites > limits.deepest_pass) & np.isfinite(path.feed)
         bad[0] = False
         if not bad.any():

@@ -41,6 +41,7 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
     low, high = program.bounds
     x, y, z = stock.work_zero
     return facts | {
+        **_position(setup),
         "machine": f"{machine.name}, {setup.post.dialect.title}",
         "material": setup.material.title,
         "stock": f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm",
@@ -49,6 +50,18 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
             f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
         ),
         "time": f"{int(seconds // 60)} min {int(seconds % 60)} s",
+    }
+
+
+def _position(setup: Setup) -> dict[str, str]:
+    position = setup.position
+    if position is None:
+        return {}
+    (x0, y0), (x1, y1) = setup.window
+    return {
+        "position": f"{position.number} of {position.count}, panel X {x0:g} to {x1:g} "
+        f"Y {y0:g} to {y1:g} mm",
+        "placing": position.placing,
     }
 
 

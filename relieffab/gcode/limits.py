@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from relieffab.cutter import Cutter
 from relieffab.machine import Machine
 from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 Floats = NDArray[np.float64]
 
@@ -35,6 +36,8 @@ class Limits:
     cutter : Cutter
     stock : Stock
     machine : Machine
+    position : Position, optional
+        Whose window the motion keeps to.
     """
 
     depth: float
@@ -42,6 +45,7 @@ class Limits:
     cutter: Cutter
     stock: Stock
     machine: Machine
+    position: Position | None = None
 
     @property
     def deepest_pass(self) -> float:
@@ -103,6 +107,10 @@ class Limits:
         low = below & outside
         low[1:] |= below[:-1] & outside[1:]
         yield low, f"cuts outside the stock of {size[0]:g} x {size[1]:g} mm"
+        if self.position is not None:
+            (x0, y0), (x1, y1) = self.position.low, self.position.high
+            past = (x < x0 - SLACK) | (x > x1 + SLACK) | (y < y0 - SLACK) | (y > y1 + SLACK)
+            yield past, f"leaves the window of position {self.position.number}"
         yield self._in_frame(points), "runs into the raised frame"
         sideways = np.zeros(len(points), bool)
         sideways[1:] = (np.abs(np.diff(points[:, :2], axis=0)) > SLACK).any(axis=1) & below[:-1]

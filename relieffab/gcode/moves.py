@@ -42,7 +42,7 @@ class Moves:
 
 def stepped(points: Floats, stock: Stock, post: Post) -> Ints:
     """Round points on the panel to steps from work zero: X and Y to the nearest, Z up."""
-    scaled = (points - np.asarray(stock.work_zero)) * post.per_mm
+    scaled = stock.to_work(points) * post.per_mm
     steps: Ints = np.rint(scaled).astype(np.int64)
     steps[:, 2] = np.ceil(scaled[:, 2] - 1e-6).astype(np.int64)
     return steps

@@ -1,6 +1,6 @@
 """Program: what a text of G-code makes the machine do."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -118,4 +118,8 @@ class Program:
 
     def on_panel(self, stock: Stock) -> Floats:
         """Give the points in panel coordinates, mm."""
-        return self.points + np.asarray(stock.work_zero)
+        return stock.to_panel(self.points)
+
+    def moved(self, was: Stock, now: Stock) -> "Program":
+        """Give the program that goes the same way on a panel that lies elsewhere."""
+        return replace(self, points=now.to_work(self.on_panel(was)))

@@ -14,12 +14,15 @@ from relieffab.gcode.limits import Limits, travel_findings
 from relieffab.gcode.missed import missed_patch
 from relieffab.gcode.program import Program
 from relieffab.gcode.read import read_program
+from relieffab.gcode.seams import Seam, seam_findings, seams_of
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.simulate import simulate
 from relieffab.grid import Grid
 from relieffab.machine import Machine
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -60,6 +63,8 @@ class Verification:
         where too much is gone.  Read-only.
     carved : (rows + 1, cols + 1) ndarray of float32
         What is left of the stock at the lattice's nodes, mm.  Read-only.
+    seams : tuple of Seam
+        Where the parts of a panel meet that is cut at several positions.
     """
 
     gouge_mm: float
@@ -73,6 +78,7 @@ class Verification:
     figure: NDArray[np.bool_] = field(repr=False)
     deviation: Singles = field(repr=False)
     carved: Singles = field(repr=False)
+    seams: tuple[Seam, ...] = ()
 
     def __post_init__(self) -> None:
         self.deviation.flags.writeable = False
@@ -84,6 +90,7 @@ def verify(
     relief: Relief,
     setup: Setup,
     *,
+    positions: Sequence[Position | None] = (),
     tolerance: float = 0.1,
     gouge_limit: float = 0.005,
     refine: int | None = None,
@@ -106,6 +113,8 @@ def verify(
     relief : Relief
     setup : Setup
         Machine, material and stock.
+    positions : sequence of Position or None, optional
+        One a program, as cutters are, where the stock is moved between them.
     tolerance : float
         Accepted difference, mm.
     gouge_limit : float
@@ -127,6 +136,10 @@ def verify(
     if refine is None:
         refine = REFINE if relief.mask.size <= LARGE else REFINE // 2
     read = [part for program in _read(programs, setup) for part in program.by_tool()]
+    setups = [setup.at(position) for position in positions or [None] * len(read)]
+    read = [
+        program.moved(its.stock, setup.stock) for program, its in zip(read, setups, strict=True)
+    ]
     carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
     coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)
     deviation = carved.heights - _wanted(carved.grid, relief)
@@ -136,14 +149,20 @@ def verify(
     within = float((np.abs(inside) <= tolerance).mean())
     findings = [
         text
-        for program, cutter, bites in zip(read, cutters, coarse.bites, strict=True)
-        for text in _motion(program, setup.limits(cutter), bites)
+        for program, cutter, its, bites in zip(read, cutters, setups, coarse.bites, strict=True)
+        for text in _motion(program, setup.stock, its.limits(cutter), bites)
     ]
-    findings += _together(read, setup.machine) + list(carved.crashes)
+    for position in dict.fromkeys(its.position for its in setups):
+        fixed = [p for p, its in zip(read, setups, strict=True) if its.position == position]
+        findings += _together(fixed, setup.machine)
+    findings += carved.crashes
     if gouge > gouge_limit:
         findings.append(f"gouges the relief by {gouge:.3f} mm at X {x:.2f} Y {y:.2f} on the panel")
     if within < LEAST_WITHIN:
         findings.append(f"only {within:.1%} of the figure is within {tolerance:g} mm of the relief")
+    places = [its.position for its in setups if its.position]
+    seams = seams_of(places, cutters, carved.grid, np.where(figure, deviation, np.nan), tolerance)
+    findings += seam_findings(seams, tolerance, LEAST_WITHIN)
     findings += _missed(carved.grid, relief, deviation, _finisher(read, cutters), tolerance)
     return Verification(
         gouge_mm=gouge,
@@ -157,6 +176,7 @@ def verify(
         figure=figure,
         deviation=deviation,
         carved=carved.heights,
+        seams=seams,
     )
 
 
@@ -248,9 +268,9 @@ def _missed(
     ]
 
 
-def _motion(program: Program, limits: Limits, bites: Floats) -> list[str]:
+def _motion(program: Program, stock: Stock, limits: Limits, bites: Floats) -> list[str]:
     """List what is wrong with a program's motion by itself."""
-    points = program.on_panel(limits.stock)
+    points = program.on_panel(stock)
     findings = list(limits.findings(points, program.feed, bites, program.line))
     below = (points[:, 2] < 0) & ~program.rapid & (program.spindle <= 0)
     if below.any():
@@ -262,7 +282,7 @@ def _motion(program: Program, limits: Limits, bites: Floats) -> list[str]:
 
 
 def _together(programs: Sequence[Program], machine: Machine) -> list[str]:
-    """Check the travel of all programs from their one work zero."""
+    """Check the travel of programs from one work zero."""
     if len(programs) < 2:
         return []
     corners = np.concatenate([program.bounds for program in programs])

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from relieffab import profiles
 from relieffab.cutter import Cutter
+from relieffab.errors import InputError
+from relieffab.fittings import PLACES
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.write import check_change
 from relieffab.grid import Grid
@@ -35,9 +37,12 @@ from relieffab.relief.targets import Carving
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
+from relieffab.toolpath.positions import Position, positions
 from relieffab.toolpath.settings import Milling, Settings
 
 Part = dict[str, Any]
+Planned = tuple[Position | None, tuple[Toolpath, ...]]
+"""What is cut at a position; at None where the stock stays where it is."""
 
 SCARAB_UP = "y"  # of the model carved where no file is named
 THUMBNAIL = 512  # pixels wide
@@ -70,6 +75,21 @@ def setup_of(job: Job, depth: float) -> Setup:
     return Setup(machine, material, stock_of(job), depth, job.units)
 
 
+def positions_of(job: Job) -> tuple[Position | None, ...]:
+    """Return how the stock lies, time after time; (None,) where it need not be moved."""
+    if job.positions is None:
+        return (None,)
+    found = positions(
+        stock_of(job),
+        machine_of(job),
+        cutters_of(job),
+        job.positions,
+        overlap=job.overlap,
+        zero=PLACES[job.work_zero],
+    )
+    return found or (None,)
+
+
 def cut_settings(job: Job) -> Settings:
     """Return how finely a job is cut, and which way round."""
     angle, crossed = job.rows
@@ -90,7 +110,8 @@ def check(job: Job) -> None:
     cutters = cutters_of(job)
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
-    check_tools(setup.machine, cutters, setup.stock, job.depth)
+    for position in positions_of(job):
+        check_tools(setup.machine, cutters, setup.stock, job.depth, position)
     cut_settings(job)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
@@ -226,18 +247,32 @@ def write_solid(
 
 def plan_paths(
     relief: Relief, strokes: Sequence[Stroke], job: Job, progress: Progress = silent
-) -> tuple[Toolpath, ...]:
-    """Plan the toolpaths of a job."""
-    return plan(
-        relief,
-        strokes,
-        machine_of(job),
-        profiles.material(job.material),
-        cutters=cutters_of(job),
-        stock=stock_of(job),
-        settings=cut_settings(job),
-        progress=progress,
-    )
+) -> tuple[Planned, ...]:
+    """Plan the toolpaths of a job, position after position."""
+    planned = [
+        (
+            position,
+            plan(
+                relief,
+                strokes,
+                machine_of(job),
+                profiles.material(job.material),
+                cutters=cutters_of(job),
+                stock=stock_of(job),
+                settings=cut_settings(job),
+                position=position,
+                progress=progress,
+            ),
+        )
+        for position in positions_of(job)
+    ]
+    cut = tuple((position, paths) for position, paths in planned if paths)
+    if not cut:
+        raise InputError(
+            "there is nothing to cut: the relief is shallower than the least cut",
+            hint="a larger depth",
+        )
+    return cut
 
 
 def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> tuple[bytes, Part]:

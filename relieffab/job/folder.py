@@ -25,9 +25,11 @@ SOLIDS = {
     )
     for name in ("panel", "plaque", "mould")
 }
+_NC = ("00-outline.nc", "00-probe.nc", "01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc")
 PROGRAMS = (
-    *("00-outline.nc", "00-probe.nc"),
-    *("01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc"),
+    *_NC,
+    *(f"[1-9]-{name}" for name in _NC),
+    *(f"[1-9][0-9]-{name}" for name in _NC),
     *("deviation.png", "look.png"),
 )
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")

@@ -1,6 +1,6 @@
 """report.html: the job on one page, for the person at the machine."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
@@ -62,8 +62,23 @@ def _programs(parts: list[dict[str, Any]]) -> str:
     return _table(["program", "cutter", "lines", "time", "bounds, mm"], rows)
 
 
-def _zero(slab: Mapping[str, Any]) -> str:
-    x, y, z = slab["work_zero"]
+def _placings(report: Mapping[str, Any]) -> str:
+    """Say where work zero is, position after position."""
+    *_, z = report["slab"]["work_zero"]
+    placed = {
+        part["placing"]: part["position"] for part in report["programs"] if "position" in part
+    }
+    if not placed:
+        return f"<p>Work zero: {_zero(report['slab']['work_zero'])}.</p>"
+    rows = [
+        [str(place["number"]), placing, _zero([*place["zero"], z])]
+        for placing, place in placed.items()
+    ]
+    return _table(["position", "how the stock lies", "work zero"], rows)
+
+
+def _zero(zero: Sequence[float]) -> str:
+    x, y, z = zero
     level = "on the stock's face" if z == 0 else "under the stock"
     return f"{x:g} mm right and {y:g} mm up from the stock's near left corner, {level}"
 
@@ -75,6 +90,11 @@ def _verdict(part: Mapping[str, Any]) -> str:
         f"within {part['tolerance_mm']:g} mm; 99 % of it within {part['excess_p99_mm']:.3f} mm; "
         f"{part['air_cutting']:.1%} of the way at a feed is in air"
     )
+    for seam in part.get("seams", []):
+        one, other = seam["between"]
+        facts += (
+            f"; 99 % of the seam of positions {one} and {other} within {seam['error_mm']:.3f} mm"
+        )
     found = "".join(f"<li>{escape(finding)}</li>" for finding in part["findings"])
     listed = f"<ul>{found}</ul>" if found else ""
     pictures = "".join(
@@ -110,7 +130,7 @@ def page(report: Mapping[str, Any]) -> str:
     if "programs" in report:
         parts += [
             "<h2>Programs, in order</h2>",
-            f"<p>Work zero: {_zero(report['slab'])}.</p>",
+            _placings(report),
             _programs(report["programs"]),
         ]
     for solid in SOLIDS:

@@ -11,12 +11,12 @@ import numpy as np
 from relieffab.gcode.aids import outline_program, probe_program
 from relieffab.gcode.ease import eased
 from relieffab.gcode.estimate import estimate
-from relieffab.gcode.pacing import paced
+from relieffab.gcode.pacing import Paced, paced
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import foretold, write_program
-from relieffab.job.chain import setup_of
+from relieffab.job.chain import Planned, setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
 from relieffab.relief.model import Relief
@@ -28,9 +28,9 @@ NUMBERS = {"rough": 1, "finish": 2, "lines": 3}
 
 
 def write(
-    paths: Sequence[Toolpath], relief: Relief, job: Job, report: Mapping[str, Any], folder: Path
+    planned: Sequence[Planned], relief: Relief, job: Job, report: Mapping[str, Any], folder: Path
 ) -> Part:
-    """Write one program a cutter, or one that changes cutters.
+    """Write one program a cutter, or one that changes cutters; so at each position.
 
     Returns
     -------
@@ -38,42 +38,77 @@ def write(
         report.json's `aids`, `programs`, `machine`, `material`, and `slab`: enough
         to judge the programs anywhere, whatever the profiles there say.
     """
-    setup = setup_of(job, relief.depth)
-    slab = Slab.whole(relief.grid, setup.stock)
-    fit = {path.name: paced(path, setup) for path in paths}
-    paths = _eased([one.path for one in fit.values()], setup, slab)
-    starving = [one.warning for one in fit.values() if one.warning]
-    notes = [*material_notes(setup, paths), *starving]
+    whole = setup_of(job, relief.depth)
+    slab = Slab.whole(relief.grid, whole.stock)
+    places = []
+    for position, paths in planned:
+        setup = whole.at(position)
+        places.append((setup, [paced(path, setup) for path in paths]))
+    fitted = [one for _, fit in places for one in fit]
+    starving = [one.warning for one in fitted if one.warning]
+    paths_by_name = {one.path.name: one.path for one in fitted}
+    notes = [*material_notes(whole, list(paths_by_name.values())), *dict.fromkeys(starving)]
     header = {**_origin(report), **_numbered(notes)}
+    parts, aids = [], []
+    for setup, fit in places:
+        parts += _at_position(setup, fit, slab, job, header, folder)
+        aids += _aids(setup, job, folder)
+    return {
+        "aids": aids,
+        "programs": parts,
+        "units": whole.units,
+        "machine": asdict(whole.machine),
+        "material": {**asdict(whole.material), "notes": notes},
+        "slab": asdict(whole.stock),
+    }
+
+
+def _at_position(
+    setup: Setup,
+    fit: Sequence[Paced],
+    slab: Slab,
+    job: Job,
+    header: Mapping[str, str],
+    folder: Path,
+) -> list[Part]:
+    """Write the programs for the stock as it lies, and cut the slab by them."""
+    fitted = {one.path.name: one for one in fit}
+    paths = _eased([one.path for one in fit], setup, slab)
     parts = []
     for name, several in _files(paths, job):
+        file = _prefix(setup) + name
         text = write_program(several, setup, slab, header=header)
-        (folder / name).write_text(text, encoding="ascii", newline="\n")
-        program = read_program(text, name=name, dialect=setup.post.dialect)
+        (folder / file).write_text(text, encoding="ascii", newline="\n")
+        program = read_program(text, name=file, dialect=setup.post.dialect)
         parts += [
             {
-                "file": name,
+                "file": file,
+                **_place(setup),
                 "cutter": asdict(path.cutter),
                 "rpm": path.rpm,
                 "feeds": asdict(cutting(path.cutter, setup.material, setup.machine)),
                 "lines": text.count("\n"),
                 "seconds": round(estimate(part, setup.machine), 1),
-                "starved": round(fit[path.name].pace.starved, 4),
-                "simplified_mm": fit[path.name].tolerance,
+                "starved": round(fitted[path.name].pace.starved, 4),
+                "simplified_mm": fitted[path.name].tolerance,
                 "cut_mm": round(path.cutting_length, 1),
                 "bounds_mm": np.round(part.bounds, 4).tolist(),
-                "sha256": file_hash(folder / name),
+                "sha256": file_hash(folder / file),
             }
             for path, part in zip(several, program.by_tool(), strict=True)
         ]
-    return {
-        "aids": _aids(setup, job, folder),
-        "programs": parts,
-        "units": setup.units,
-        "machine": asdict(setup.machine),
-        "material": {**asdict(setup.material), "notes": notes},
-        "slab": asdict(setup.stock),
-    }
+    return parts
+
+
+def _prefix(setup: Setup) -> str:
+    return f"{setup.position.number}-" if setup.position else ""
+
+
+def _place(setup: Setup) -> Part:
+    """Say how the stock lies, for whoever reads and for whoever judges."""
+    if setup.position is None:
+        return {}
+    return {"position": asdict(setup.position), "placing": setup.position.placing}
 
 
 def _eased(paths: Sequence[Toolpath], setup: Setup, slab: Slab) -> list[Toolpath]:
@@ -90,9 +125,12 @@ def _aids(setup: Setup, job: Job, folder: Path) -> list[Part]:
     texts = {"00-outline.nc": outline_program(setup)}
     if job.plate is not None:
         texts["00-probe.nc"] = probe_program(setup, job.plate)
+    parts = []
     for name, text in texts.items():
-        (folder / name).write_text(text, encoding="ascii", newline="\n")
-    return [{"file": name, "sha256": file_hash(folder / name)} for name in texts]
+        file = folder / f"{_prefix(setup)}{name}"
+        file.write_text(text, encoding="ascii", newline="\n")
+        parts.append({"file": file.name, "sha256": file_hash(file)})
+    return parts
 
 
 def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath]]]:

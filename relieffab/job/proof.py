@@ -22,6 +22,7 @@ from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
 from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 Part = dict[str, Any]
 
@@ -43,6 +44,8 @@ def judge(
     try:
         setup = _setup(report, relief.depth)
         cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
+        places = [part.get("position") for part in report["programs"]]
+        positions = [Position.of(place) if place else None for place in places]
         files = [folder / name for name in program_names(report)]
     except (KeyError, TypeError, ValueError) as fault:
         raise InputError(
@@ -58,7 +61,7 @@ def judge(
             raise InputError("a program of the job is missing", where=str(path))
         text = path.read_text(encoding="latin-1")
         programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
-    return verify(programs, cutters, relief, setup, progress=progress)
+    return verify(programs, cutters, relief, setup, positions=positions, progress=progress)
 
 
 def program_names(report: Mapping[str, Any]) -> list[str]:
@@ -136,6 +139,14 @@ def verification_part(verdict: Verification, relief: Relief, more: Sequence[str]
             "p99": round(float(high), 5),
             "most": round(float(inside.max()), 5),
         },
+        "seams": [
+            {
+                "between": list(seam.between),
+                "error_mm": round(seam.error_mm, 5),
+                "within_tolerance": round(seam.within_tolerance, 5),
+            }
+            for seam in verdict.seams
+        ],
         "nodes_per_pixel": round(relief.grid.pitch / verdict.grid.pitch),
         "air_cutting": round(verdict.air_cutting, 4),
         "ok": not findings,

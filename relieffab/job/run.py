@@ -26,7 +26,6 @@ from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
-from relieffab.toolpath.path import Toolpath
 
 Settings = Mapping[str, Chosen]
 
@@ -107,7 +106,7 @@ def _carve(
 
 
 def _prove(
-    paths: Sequence[Toolpath],
+    planned: Sequence[chain.Planned],
     relief: Relief,
     job: Job,
     report: Report,
@@ -122,7 +121,7 @@ def _prove(
         If they would not carve the relief.
     """
     with _timed(report, "programs", progress):
-        report.update(programs.write(paths, relief, job, report, folder))
+        report.update(programs.write(planned, relief, job, report, folder))
     with _timed(report, "verify", progress):
         verdict = proof.judge(relief, report, folder, progress)
         report["verification"] = {
@@ -177,8 +176,8 @@ def make(
         layers, relief = _solve(job, report, scratch, progress)
         _carve(relief, drafting, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
-            paths = chain.plan_paths(relief, layers.strokes, job, progress)
-        _prove(paths, relief, job, report, scratch, progress)
+            planned = chain.plan_paths(relief, layers.strokes, job, progress)
+        _prove(planned, relief, job, report, scratch, progress)
     return report
 
 
@@ -234,8 +233,8 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch):
         with _timed(report, "toolpaths", progress):
-            paths = chain.plan_paths(relief, strokes, job, progress)
-        _prove(paths, relief, job, report, scratch, progress)
+            planned = chain.plan_paths(relief, strokes, job, progress)
+        _prove(planned, relief, job, report, scratch, progress)
     return report
 
 

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from relieffab.errors import InputError, suggest
 from relieffab.fittings import Edge, Kind
 from relieffab.job.table import SETTINGS, TABLE, Setting
+from relieffab.toolpath.positions import Way
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,8 @@ class Job:
     units: Literal["mm", "in"]
     work_zero: str
     work_zero_z: str
+    positions: Way | None
+    overlap: float
     plate: float | None
     cutter_change: str
     mesh_tolerance: float

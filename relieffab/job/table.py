@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 from relieffab import units
 from relieffab.fittings import LEVELS, PLACES
@@ -12,6 +12,7 @@ from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN
 from relieffab.relief.names import NAMES as METHODS
 from relieffab.template.pages import PAPERS
+from relieffab.toolpath.positions import Way
 
 
 @dataclass(frozen=True)
@@ -131,6 +132,13 @@ SETTINGS = (
         "top",
         "work zero's height: top or bottom of the stock",
     ),
+    Setting(
+        "positions",
+        readers.one_of(*get_args(Way)),
+        "",
+        "of a panel larger than the machine: index (moved along) or turn (turned half round)",
+    ),
+    Setting("overlap", readers.positive, "5mm", "of what is cut at neighbouring positions"),
     Setting(
         "plate", readers.not_negative, "", "thickness of a touch plate: also writes a probe of Z"
     ),

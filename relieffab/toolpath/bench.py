@@ -14,6 +14,7 @@ from relieffab.toolpath.envelope import Terrain
 from relieffab.toolpath.finish import finish_rows, scallop_stepover
 from relieffab.toolpath.passes import Pass, Work, passes
 from relieffab.toolpath.pencil import creases
+from relieffab.toolpath.positions import Position
 from relieffab.toolpath.rough import rough_passes, rough_work
 from relieffab.toolpath.settings import Settings
 from relieffab.toolpath.strips import strips
@@ -34,6 +35,8 @@ class Bench:
     ----------
     relief : Terrain
     settings : Settings
+    position : Position, optional
+        Whose window the cutter's axis keeps to.
 
     Attributes
     ----------
@@ -41,15 +44,20 @@ class Bench:
         What still stands at the relief's nodes, mm.
     """
 
-    def __init__(self, relief: Terrain, settings: Settings) -> None:
+    def __init__(
+        self, relief: Terrain, settings: Settings, position: Position | None = None
+    ) -> None:
         self.relief = relief
         self.settings = settings
+        self.position = position
         self.left: Floats = np.zeros(relief.heights.shape)
 
     def rough(self, cutter: Cutter, stepdown: float) -> list[Pass]:
         """Clear most of the stock, level by level."""
         work = rough_work(self.relief, cutter, stepdown, self.settings.allowance)
-        parts = rough_passes(work, reverse=self.settings.milling == "conventional")
+        parts = rough_passes(
+            work, reverse=self.settings.milling == "conventional", position=self.position
+        )
         for part in parts:
             tips = np.concatenate(
                 [np.zeros((0, 3)), *(_dense(run, work.step) for run in part.runs)]
@@ -102,6 +110,8 @@ class Bench:
         self, work: Work, trace: Trace, *, dropped: bool = False, fixed: bool = False
     ) -> list[Pass]:
         """Cut along a trace, and remember what is left after all its passes."""
+        if self.position is not None:
+            trace = trace.clipped(self.position.holds(*trace.xy.T))
         if len(trace) == 0:
             return []
         low, top = work.follow(trace, dropped=dropped)

@@ -9,14 +9,22 @@ from relieffab.errors import InputError
 from relieffab.machine import Machine
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 FINEST = 0.01  # mm, the closest rows that are no mistake
 
 
 def check(
-    relief: Relief, machine: Machine, cutters: Sequence[Cutter], stock: Stock, stepover: float
+    relief: Relief,
+    machine: Machine,
+    cutters: Sequence[Cutter],
+    stock: Stock,
+    stepover: float,
+    position: Position | None = None,
 ) -> None:
     """Refuse a job that these cutters, this machine or this stock cannot do.
+
+    At a position the machine has to reach no more than its window.
 
     Raises
     ------
@@ -31,13 +39,19 @@ def check(
         )
     _check_stock(relief, stock, deepest)
     _check_frame(relief, stock, cutters)
-    check_tools(machine, cutters, stock, deepest)
+    check_tools(machine, cutters, stock, deepest, position)
     check_stepover(stepover, cutters[1])
 
 
-def check_tools(machine: Machine, cutters: Sequence[Cutter], stock: Stock, depth: float) -> None:
-    """Refuse a machine or cutters that do not fit the stock and the depth, mm."""
-    _check_travel(machine, stock, depth)
+def check_tools(
+    machine: Machine,
+    cutters: Sequence[Cutter],
+    stock: Stock,
+    depth: float,
+    position: Position | None = None,
+) -> None:
+    """Refuse a machine or cutters that do not fit the stock, or its part, and the depth, mm."""
+    _check_travel(machine, position.size if position else (stock.width, stock.height), depth)
     for cutter in cutters:
         _check_cutter(cutter, stock, depth)
 
@@ -87,15 +101,18 @@ def _check_frame(relief: Relief, stock: Stock, cutters: Sequence[Cutter]) -> Non
         )
 
 
-def _check_travel(machine: Machine, stock: Stock, deepest: float) -> None:
-    wanted = (stock.width, stock.height, machine.safe_height + deepest)
+def _check_travel(machine: Machine, size: tuple[float, float], deepest: float) -> None:
+    wanted = (*size, machine.safe_height + deepest)
     for axis, want, travel in zip("XYZ", wanted, machine.travel, strict=True):
         if want > travel:
             raise InputError(
                 f"the panel is larger than the machine {machine.name} can reach",
                 expected=f"at most {travel:g} mm in {axis}",
                 found=f"{want:g} mm",
-                hint="a smaller size, or another machine",
+                hint="a smaller depth, or another machine"
+                if axis == "Z"
+                else "a smaller size, another machine, or a stock that is moved: "
+                "--positions index or turn",
             )
 
 

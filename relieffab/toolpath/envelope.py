@@ -5,7 +5,7 @@ h(s) - c(|s - (x, y)|), exact for the triangles that `Relief.height_at` means.
 """
 
 from dataclasses import dataclass
-from math import cos, radians, sin
+from math import ceil, cos, floor, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +48,16 @@ class Terrain:
     def of(cls, relief: Relief) -> "Terrain":
         """Prepare a relief."""
         return cls.over(relief.grid, relief.heights)
+
+    def within(self, low: tuple[float, float], high: tuple[float, float], more: float) -> "Terrain":
+        """Keep what lies between two corners or up to `more` beyond, mm; round it the face."""
+        grid = self.grid
+        top, left = grid.to_index(low[0] - more, high[1] + more)
+        bottom, right = grid.to_index(high[0] + more, low[1] - more)
+        i, j = max(0, floor(top)), max(0, floor(left))
+        rows, cols = min(grid.rows, ceil(bottom)) - i, min(grid.cols, ceil(right)) - j
+        part = Grid(rows, cols, grid.pitch, grid.to_xy(float(i), float(j)))
+        return Terrain.over(part, self.heights[i : i + rows + 1, j : j + cols + 1])
 
 
 def tip_heights(

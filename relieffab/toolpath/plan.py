@@ -18,6 +18,7 @@ from relieffab.toolpath.finish import scallop_stepover
 from relieffab.toolpath.link import Linking, link
 from relieffab.toolpath.passes import Pass
 from relieffab.toolpath.path import Toolpath
+from relieffab.toolpath.positions import Position
 from relieffab.toolpath.settings import Settings
 
 Stage = Callable[[Cutter, float], list[Pass]]
@@ -46,6 +47,7 @@ def plan(
     cutters: tuple[Cutter, Cutter, Cutter] | None = None,
     stock: Stock | None = None,
     settings: Settings | None = None,
+    position: Position | None = None,
     progress: Progress = silent,
 ) -> tuple[Toolpath, ...]:
     """Plan the carving of a relief.
@@ -62,12 +64,15 @@ def plan(
     stock : Stock, optional
         The slab; by default as large as the relief's grid and thick enough.
     settings : Settings, optional
+    position : Position, optional
+        Where the machine cannot reach all of the stock: what is cut is within this window.
     progress : Progress
 
     Returns
     -------
     tuple of Toolpath
-        Those of 'rough', 'finish' and 'lines' that have anything to cut.
+        Those of 'rough', 'finish' and 'lines' that have anything to cut; at a position
+        there may be none.
 
     Raises
     ------
@@ -78,10 +83,10 @@ def plan(
     settings = settings or Settings()
     stepover = settings.stepover
     stepover = scallop_stepover(cutters[1], settings.scallop) if stepover is None else stepover
-    check(relief, machine, cutters, stock or _bare_stock(relief), stepover)
+    check(relief, machine, cutters, stock or _bare_stock(relief), stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
     uses = [cutting(cutter, material, machine) for cutter in cutters]
-    bench = Bench(Terrain.of(relief), settings)
+    bench = Bench(_part(Terrain.of(relief), position, cutters), settings, position)
     stages: tuple[Stage, ...] = (bench.rough, bench.finish, partial(bench.lines, strokes=strokes))
     paths = []
     for k, (name, cutter, use, stage) in enumerate(zip(NAMES, cutters, uses, stages, strict=True)):
@@ -91,12 +96,20 @@ def plan(
         if len(points):
             paths.append(Toolpath(name, points, feed, cutter, use.rpm))
     progress("toolpaths", 3, 3, "programs")
-    if not paths:
+    if not paths and position is None:
         raise InputError(
             "there is nothing to cut: the relief is shallower than the least cut",
             hint="a larger depth",
         )
     return tuple(paths)
+
+
+def _part(terrain: Terrain, position: Position | None, cutters: Sequence[Cutter]) -> Terrain:
+    """Take what cutters may touch from a window, and as much again."""
+    if position is None:
+        return terrain
+    reach = 2 * max(max(cutter.radius, cutter.shank_radius) for cutter in cutters)
+    return terrain.within(position.low, position.high, reach)
 
 
 def _bare_stock(relief: Relief) -> Stock:

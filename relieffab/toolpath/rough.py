@@ -7,6 +7,7 @@ import numpy as np
 from relieffab.cutter import Cutter
 from relieffab.toolpath.envelope import Places, Terrain
 from relieffab.toolpath.passes import Pass, Work, one_pass
+from relieffab.toolpath.positions import Position
 from relieffab.toolpath.trace import sample
 from relieffab.toolpath.waterline import offsets
 
@@ -34,7 +35,9 @@ def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: floa
     return Work(relief, slab, cutter, stepdown, allowance, _TOLERANCE, _LEAST, step)
 
 
-def rough_passes(work: Work, *, reverse: bool = False) -> list[Pass]:
+def rough_passes(
+    work: Work, *, reverse: bool = False, position: Position | None = None
+) -> list[Pass]:
     """Clear level after level, each from the middle of its patches outwards.
 
     A level is cleared where something stands above it, and nowhere else; where the
@@ -45,16 +48,23 @@ def rough_passes(work: Work, *, reverse: bool = False) -> list[Pass]:
     work : Work
     reverse : bool
         Conventional milling instead of climb milling.
+    position : Position, optional
+        Whose window the cutter's axis keeps to.
     """
     grid, step = work.relief.grid, _LATTICE * work.cutter.diameter
     rows, count = (ceil(side * grid.pitch / step) + 1 for side in grid.shape)
     places = Places(grid.origin, 0.0, step, step, rows, count)
     above = work.top(places) - work.low(places)
+    if position is not None:
+        above[~position.holds(*places.xy())] = 0.0
     found: list[Pass] = []
     while above.max() > max(work.least, (len(found) + _SLIVER) * work.stepdown):
         worth = max(work.least, len(found) * work.stepdown)
         lines = offsets(above > worth, places, STEPOVER * work.cutter.diameter)
         lines = [line[::-1] for line in lines] if reverse else lines
-        low, top = work.follow(sample(lines, work.step))
+        trace = sample(lines, work.step)
+        if position is not None:
+            trace = trace.clipped(position.holds(*trace.xy.T))
+        low, top = work.follow(trace)
         found.append(one_pass(work, low, top, len(found) + 1, fixed=True))
     return found

@@ -62,6 +62,12 @@ class Trace:
         top = None if self.top is None else self.top[where]
         return Trace(self.xy[where], self.z[where], self.run[where], self.corner[where], top)
 
+    def clipped(self, where: Bools) -> "Trace":
+        """Keep some samples; a run ends where the next sample of it is gone."""
+        parted = ~(self.joined & where[1:] & where[:-1])
+        run = np.cumsum(np.concatenate([[0], parted])).astype(np.intp)
+        return replace(self, run=run[: len(self)]).pick(where)
+
     def turned(self) -> "Trace":
         """Go along every run the other way, in the order they are in."""
         index = np.lexsort((-np.arange(len(self)), self.run))

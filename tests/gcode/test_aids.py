@@ -10,6 +10,7 @@ from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.machine import Machine, Material
 from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 TRAVEL, RATE = (200.0, 150.0, 60.0), (3000.0, 1200.0, 700.0)
 
@@ -74,3 +75,17 @@ def test_inches():
 def test_plates_that_cannot_be(plate):
     with pytest.raises(InputError, match="not that thick"):
         probe_program(setup_of(), plate)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_outline_of_a_part(turned):
+    zero = (120.0, 90.0) if turned else (60.0, 0.0)
+    place = Position(2, 2, (60.0, 0.0), (120.0, 90.0), zero, turned)
+    setup = setup_of().at(place)
+    text = outline_program(setup)
+    read = read_program(text, dialect=DIALECTS["grbl"])
+    around = [[0, 0], [60, 0], [60, 90], [0, 90], [0, 0]]
+    assert np.allclose(read.points[-5:, :2], around, atol=1e-3)
+    assert place.placing in text
+    box = read.on_panel(setup.stock)[-5:, :2]
+    assert np.allclose([box.min(axis=0), box.max(axis=0)], [place.low, place.high], atol=1e-3)

@@ -9,6 +9,7 @@ from relieffab.fittings import Frame
 from relieffab.gcode.limits import Limits, travel_findings
 from relieffab.machine import Machine
 from relieffab.stock import Stock
+from relieffab.toolpath.positions import Position
 
 MACHINE = Machine(
     "mill", "", (100.0, 80.0, 20.0), (1000.0, 900.0, 300.0), (30.0,) * 3, (0.0, 1e4), 1e3
@@ -71,3 +72,13 @@ def test_travel():
     assert travel_findings(np.array([[0, 0, -5], [100, 80, 15]]), MACHINE) == ()
     (text,) = travel_findings(np.array([[0, 0, -5], [100, 80, 15.01]]), MACHINE)
     assert "20.010 mm of Z" in text
+
+
+def test_a_window_is_not_left_even_in_the_air():
+    place = Position(2, 2, (40.0, 0.0), (100.0, 80.0), (40.0, 0.0))
+    limits = replace(LIMITS, position=place)
+    inside = np.array([[40.0, 0.0, 5.0], [100.0, 80.0, 5.0]])
+    feed = np.array([np.inf, np.inf])
+    assert limits.findings(inside, feed, np.zeros(2)) == ()
+    (text,) = limits.findings(inside - [0.01, 0.0, 0.0], feed, np.zeros(2))
+    assert text == "leaves the window of position 2 (1 moves, first at move 0)"

@@ -1,6 +1,7 @@
 """Verification passes a sound program and catches each seeded fault in its text."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from relieffab.relief.model import Relief
 from relieffab.stock import Stock
 from relieffab.toolpath.envelope import Terrain, tip_heights
 from relieffab.toolpath.path import Toolpath
+from relieffab.toolpath.positions import Position
 
 MACHINE = Machine(
     "mill", "", (200.0, 160.0, 40.0), (1500.0,) * 3, (300.0,) * 3, (2000.0, 10000.0), 10000.0
@@ -204,3 +206,66 @@ def test_bad_use():
         verify([], [], RELIEF, SETUP)
     with pytest.raises(InputError, match="program 1 line 3"):
         judge("G21 G90\nG0 Z5\nG1 X0 Y0\nM30")
+
+
+FIRST = Position(1, 2, (0.0, 0.0), (17.0, 20.0), (0.0, 0.0))
+SECOND = Position(2, 2, (13.0, 0.0), (30.0, 20.0), (13.0, 0.0))
+TURNED = Position(2, 2, (13.0, 0.0), (30.0, 20.0), (30.0, 20.0), turned=True)
+
+
+def part(place, stop=None):
+    """Rows of `finish` within a window, as a program for the stock as it lies then."""
+    terrain = Terrain.of(RELIEF)
+    points, feed = [], []
+    x = np.linspace(max(place.low[0] + 0.1, 2), min(stop or place.high[0] - 0.1, 28), 171)
+    for y in np.arange(1.25, 18.9, 0.5):
+        z = np.minimum(tip_heights(terrain, BALL, x, np.full(len(x), y)), 0)
+        row = np.column_stack([x, np.full(len(x), y), z])
+        points += [[[x[0], y, 5]], row, [[x[-1], y, 5]]]
+        feed += [[np.inf, 300], [800] * (len(x) - 1), [np.inf]]
+    path = Toolpath("finish", np.concatenate(points), np.concatenate(feed), BALL, 8000.0)
+    return write_program(path, SETUP.at(place), Slab.whole(RELIEF.grid, STOCK))
+
+
+@pytest.mark.parametrize("second", [SECOND, TURNED])
+def test_programs_of_two_positions_are_judged_together(second):
+    texts = [part(FIRST), part(second)]
+    both = verify(texts, [BALL] * 2, RELIEF, SETUP, positions=[FIRST, second], tolerance=0.05)
+    assert both.findings == ()
+    assert both.gouge_mm < 0.002 and both.within_tolerance > 0.999
+    (seam,) = both.seams
+    assert seam.between == (1, 2) and seam.error_mm < 0.04
+    one = verify(texts[:1], [BALL], RELIEF, SETUP, positions=[FIRST])
+    assert one.seams == () and not one.ok
+
+
+def test_a_position_confused_with_another_gouges():
+    texts = [part(FIRST), part(SECOND)]
+    for wrong in ([FIRST, TURNED], [SECOND, FIRST], [FIRST, replace(SECOND, zero=(13.1, 0.0))]):
+        verdict = verify(texts, [BALL] * 2, RELIEF, SETUP, positions=wrong)
+        assert any("gouges the relief" in text for text in verdict.findings)
+
+
+def test_a_gap_between_two_positions_is_found():
+    second = replace(SECOND, low=(15.8, 0.0))
+    texts = [part(FIRST, stop=14.0), part(second)]
+    verdict = verify(texts, [BALL] * 2, RELIEF, SETUP, positions=[FIRST, second])
+    assert any("of the seam between positions 1 and 2" in text for text in verdict.findings)
+    assert verdict.seams[0].within_tolerance < 0.9 < verdict.within_tolerance
+
+
+def test_a_program_beyond_its_window_is_found():
+    narrow = replace(FIRST, high=(15.0, 20.0))
+    verdict = verify(
+        [part(FIRST), part(SECOND)], [BALL] * 2, RELIEF, SETUP, positions=[narrow, SECOND]
+    )
+    (text,) = verdict.findings
+    assert text.startswith("program 1: leaves the window of position 1")
+
+
+def test_travel_counts_at_each_position_by_itself():
+    setup = replace(SETUP, machine=replace(MACHINE, travel=(17.0, 160.0, 40.0)))
+    texts = [part(FIRST), part(SECOND)]
+    assert verify(texts, [BALL] * 2, RELIEF, setup, positions=[FIRST, SECOND]).ok
+    moved = verify(texts, [BALL] * 2, RELIEF, setup)
+    assert not moved.ok

@@ -201,3 +201,17 @@ def test_inputs_stay_as_they_were():
     tip_heights(Terrain.over(GRID, heights), CUTTERS["ball"], x, np.array([3.0, 3.0]))
     assert np.array_equal(heights, kept)
     assert x.tolist() == [2, 3]
+
+
+def test_a_part_is_the_whole_where_no_cutter_reaches_over_its_edge():
+    rng = np.random.default_rng(5)
+    grid = Grid(40, 60, 0.2, (1.0, 9.0))
+    whole = Terrain.over(grid, -DEPTH * rng.random(grid.node_shape))
+    part = whole.within((4.0, 3.0), (7.05, 6.0), 1.0)
+    assert part.heights.size < whole.heights.size / 2
+    x, y = rng.uniform(4.0, 7.05, 300), rng.uniform(3.0, 6.0, 300)
+    for cutter in CUTTERS.values():
+        assert np.allclose(
+            tip_heights(part, cutter, x, y), tip_heights(whole, cutter, x, y), rtol=0, atol=1e-9
+        )
+    assert whole.within((0.0, 0.0), (20.0, 20.0), 1.0).grid == grid

@@ -1,5 +1,7 @@
 """A small relief planned whole, and carved again by plain sampling."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter
@@ -10,7 +12,8 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
 from relieffab.relief.model import Relief
 from relieffab.stock import Stock
-from relieffab.toolpath.plan import plan
+from relieffab.toolpath.plan import default_cutters, plan
+from relieffab.toolpath.positions import Position, positions
 from relieffab.toolpath.remains import after
 from relieffab.toolpath.settings import Settings
 
@@ -152,3 +155,42 @@ def test_the_finest_cutter_visits_only_what_the_one_before_could_not_reach(plann
     seen = near[np.rint(row[low]).astype(int), np.rint(col[low]).astype(int)]
     assert (seen > 0.03).mean() > 0.95
     assert paths[2].cutting_length < 0.5 * paths[1].cutting_length
+
+
+@pytest.mark.parametrize("way", ["index", "turn"])
+def test_positions_leave_what_one_does(planned, way):
+    relief, paths = planned
+    machine = replace(profiles.machine(), travel=(20.0, 157.0, 34.0))
+    cutters, stock = default_cutters(), Stock(30.0, 24.0, 8.0)
+    places = positions(stock, machine, cutters, way, overlap=4.0)
+    assert len(places) == 2
+    parts = []
+    for place in places:
+        found = plan(relief, strokes(), machine, profiles.material(), stock=stock, position=place)
+        assert [path.name for path in found] == ["rough", "finish", "lines"]
+        for path in found:
+            assert (path.points[:, :2] >= place.low).all()
+            assert (path.points[:, :2] <= place.high).all()
+        parts += found
+    apart, whole = carved(relief, parts), carved(relief, paths)
+    assert (apart - relief.heights).min() > -0.005
+    low, high = places[0].overlap(places[1])
+    x = GRID.node_axes()[0]
+    seam = (x >= low[0] - 1.6) & (x <= high[0] + 1.6)
+    figure = relief.heights[:, seam] < 0
+    left = [np.quantile((h - relief.heights)[:, seam][figure], 0.99) for h in (apart, whole)]
+    assert left[0] < left[1] + 0.01
+    for one in (parts[:3], parts[3:]):
+        alone = np.quantile((carved(relief, one) - relief.heights)[:, seam][figure], 0.99)
+        assert alone > left[0] + 0.5
+
+
+def test_a_panel_beyond_reach_says_what_to_try():
+    machine = replace(profiles.machine(), travel=(20.0, 157.0, 34.0))
+    with pytest.raises(InputError, match="--positions index or turn"):
+        plan(figure(), (), machine, profiles.material())
+
+
+def test_a_window_without_figure_has_no_paths():
+    place = Position(1, 2, (0.0, 0.0), (3.0, 24.0), (0.0, 0.0))
+    assert plan(figure(), (), profiles.machine(), profiles.material(), position=place) == ()

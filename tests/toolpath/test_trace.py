@@ -89,3 +89,12 @@ def test_turned_runs_keep_their_order():
 
 def test_nothing_to_follow_is_no_fault():
     assert len(follow(terrain(), CUTTERS["flat"], sample([], 0.1))) == 0
+
+
+def test_a_clipped_run_is_two():
+    trace = sample([np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[1.0, 1.0], [0.0, 1.0]])], 0.25)
+    kept = trace.clipped(np.abs(trace.xy[:, 0] - 0.5) > 0.1)
+    assert kept.xy[:, 0].tolist() == [0.0, 0.25, 0.75, 1.0, 1.0, 0.75, 0.25, 0.0]
+    assert kept.joined.tolist() == [True, False, True, False, True, False, True]
+    assert len(trace.clipped(np.zeros(len(trace), bool))) == 0
+    assert len(trace.pick(np.zeros(len(trace), bool)).clipped(np.zeros(0, bool))) == 0
