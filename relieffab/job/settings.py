@@ -7,7 +7,6 @@ from typing import Any, Literal
 from relieffab.errors import InputError, suggest
 from relieffab.fittings import Edge, Kind
 from relieffab.job.table import SETTINGS, TABLE, Setting
-from relieffab.toolpath.positions import Way
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class Job:
     units: Literal["mm", "in"]
     work_zero: str
     work_zero_z: str
-    positions: Way | None
+    positions: Literal["index", "turn"] | None
     overlap: float
     plate: float | None
     cutter_change: str

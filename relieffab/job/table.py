@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, get_args
+from typing import Any
 
 from relieffab import units
 from relieffab.fittings import LEVELS, PLACES
@@ -12,7 +12,6 @@ from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN
 from relieffab.relief.names import NAMES as METHODS
 from relieffab.template.pages import PAPERS
-from relieffab.toolpath.positions import Way
 
 
 @dataclass(frozen=True)
@@ -134,7 +133,7 @@ SETTINGS = (
     ),
     Setting(
         "positions",
-        readers.one_of(*get_args(Way)),
+        readers.one_of("index", "turn"),
         "",
         "of a panel larger than the machine: index (moved along) or turn (turned half round)",
     ),
