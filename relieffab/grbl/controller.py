@@ -129,6 +129,11 @@ class Controller:
         return any(code in codes and any(self.offsets.get(key, ())) for code, key in clearing)
 
     @property
+    def zero_forgotten(self) -> bool:
+        """True where a reset moves work zero: G92 and tool lengths are not stored."""
+        return any(any(self.offsets.get(key, ())) for key in ("G92", "TLO"))
+
+    @property
     def quiet(self) -> bool:
         """True with spindle and coolant off."""
         return {"M5", "M9"} <= set(self.modal.split())
