@@ -1,6 +1,7 @@
 """What a controller says of itself: version, buffer, settings, offsets, modal state."""
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from relieffab.grbl.lines import LONGEST_LINE
@@ -121,6 +122,16 @@ class Controller:
         """The work coordinate system in force."""
         named = [word for word in self.modal.split() if word in SYSTEMS]
         return named[0] if named else "G54"
+
+    def cleared_by(self, codes: Collection[str]) -> bool:
+        """Say whether a program's G49 or G92.1 moves work zero: where an offset is in force."""
+        clearing = (("G49", "TLO"), ("G92.1", "G92"))
+        return any(code in codes and any(self.offsets.get(key, ())) for code, key in clearing)
+
+    @property
+    def zero_forgotten(self) -> bool:
+        """True where a reset moves work zero: G92 and tool lengths are not stored."""
+        return any(any(self.offsets.get(key, ())) for key in ("G92", "TLO"))
 
     @property
     def quiet(self) -> bool:

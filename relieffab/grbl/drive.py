@@ -199,10 +199,13 @@ class Drive:
             count = f"{session.acknowledged} of {len(program)} lines acknowledged"
             where = f"{where} ({count})" if where else count
         outcome = _UNPLUGGED if self.lost else session.outcome
+        forgotten = session.controller is not None and session.controller.zero_forgotten
+        if session.started is not None and forgotten:
+            outcome += "; the reset forgot G92 and tool lengths: set work zero again"
         again = ""
         resumable = self.job.resumable and not self.job.check
         if session.started is not None and session.reached is not None and resumable:
-            kept = session.position_kept and not self.lost
+            kept = session.position_kept and not (self.lost or forgotten)
             again = f"to go on, send again with --from-line {session.reached.number}" + (
                 "" if kept else " and --zero-set, once work zero is set again"
             )

@@ -104,6 +104,13 @@ def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
             found="; ".join(found.refusals),
             hint="move work zero, turn the job, or change what is named",
         )
+    if job.check and controller.zero_forgotten:
+        return Failure(
+            Fault.MISFIT,
+            "check mode would move work zero",
+            found="an offset by G92 or a tool length, which the reset at its end forgets",
+            hint="store work zero by G10 L20 first",
+        )
     table = Timetable(job.program, controller.limits)
     position, machine = _places(controller, status)
     point: Entry | None = None

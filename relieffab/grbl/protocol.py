@@ -290,6 +290,7 @@ class Session:
         if controller is None or self._status is None:
             raise RuntimeError("the machine was not asked")
         course = Course(controller.blocks, controller.work_zero, controller.resolution)
+        course.known = not controller.cleared_by(self._job.program.codes)
         position = course.work_position(self._status)
         if isinstance(part, Entry):
             height = math.inf if position is None else position[2]

@@ -49,7 +49,8 @@ def review(program: Program, controller: Controller) -> Review:
     if not controller.hal:
         refusals += _unknown(program, controller)
     found = misfits(program, controller)
-    certain = program.bounds_certain and controller.soft_limits
+    cleared = controller.cleared_by(program.codes)
+    certain = program.bounds_certain and controller.soft_limits and not cleared
     (refusals if certain else notes).extend(found)
     notes += _spindle(program, controller)
     if controller.homing and not any(controller.work_zero):

@@ -3,7 +3,8 @@
 Not an interpreter: just enough modal state to place every move.  Where a program goes to
 places it does not name in work coordinates (G28, G30, G53, probing), positions go on from the
 next named one and `certain` turns False.  Where it moves work zero (G10, G92, tool lengths,
-other work coordinate systems), `followed` does, too.
+other work coordinate systems), `followed` does, too; G49 and G92.1 are taken to find nothing
+to clear, which `Controller.cleared_by` knows.
 """
 
 import math
@@ -26,10 +27,10 @@ Place = tuple[float | None, float | None, float | None]
 
 _PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
 _PLAIN_LETTERS = "LNPT"
+_SHIFT = 92.0
 _PROBING = {38.2, 38.3, 38.4, 38.5}
 _AWAY = {28.0, 30.0, 53.0, *_PROBING}
-_SHIFTS = {92.0, 92.1}
-_UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, 49.0, *_SHIFTS, *map(float, range(55, 60))}
+_UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, _SHIFT, *map(float, range(55, 60))}
 
 
 class Motion(NamedTuple):
@@ -159,7 +160,7 @@ class Tracker:
                 self.modal = self.modal.with_g(value)
                 self.followed = self.followed and value not in _UNFOLLOWED
                 away = away or value in _AWAY
-                shifts = shifts or value in _SHIFTS
+                shifts = shifts or value == _SHIFT
             elif letter in "IJKR":
                 centre[letter] = value
             elif letter == "F":

@@ -56,6 +56,20 @@ def test_work_zero_is_the_sum_of_the_offsets_in_force():
     assert known.work_zero == (1.5, 2.0, -1.0)
 
 
+@pytest.mark.parametrize(
+    ("codes", "note", "moves"),
+    [
+        ({"G49"}, Note("TLO", "-4.000"), True),
+        ({"G49"}, Note("TLO", "0.000"), False),
+        ({"G92.1"}, Note("TLO", "-4.000"), False),
+        ({"G92.1"}, Note("G92", "0.000,0.000,2.000"), True),
+        ({"G1"}, Note("G92", "0.000,0.000,2.000"), False),
+    ],
+)
+def test_clearing_an_offset_moves_work_zero_where_one_is_in_force(codes, note, moves):
+    assert controller(note).cleared_by(codes) is moves
+
+
 def test_offsets_in_inches_are_millimetres_inside():
     assert controller(Note("G54", "1.000,0.000,-2.000"), _13=1).work_zero == (25.4, 0, -50.8)
 

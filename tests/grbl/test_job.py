@@ -54,6 +54,12 @@ def test_a_check_begins_with_check_mode():
     assert setup(plan(Job(PROGRAM, check=True), Controller("1.1h", modal=GC), IDLE)) == ["$C"]
 
 
+def test_check_mode_is_refused_where_its_end_would_move_work_zero():
+    shifted = Controller("1.1h", modal=GC, offsets={"G92": (0.0, 0.0, 2.0)})
+    assert plan(Job(PROGRAM, check=True), shifted, IDLE).fault is Fault.MISFIT
+    assert setup(plan(Job(PROGRAM), shifted, IDLE)) == []
+
+
 @pytest.mark.parametrize(
     ("resume", "number"),
     [

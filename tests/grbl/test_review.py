@@ -1,7 +1,7 @@
 import pytest
 
 from relieffab.grbl.controller import Controller
-from relieffab.grbl.messages import Setting
+from relieffab.grbl.messages import Note, Setting
 from relieffab.grbl.program import prepare
 from relieffab.grbl.review import misfits, review
 
@@ -34,6 +34,11 @@ def test_only_soft_limits_refuse_and_only_where_the_bounds_are_certain():
     assert not review(program, controller(_22=1)).refusals
     assert review(program, controller(_22=1)).notes
     assert not review(prepare("G0X0Y0Z0\nG28\nG1X90"), controller(_20=1)).refusals
+    lifted = controller(_20=1)
+    cleared = prepare("G49G40\nG0X0Y0Z0\nG1X90Y70Z-5")
+    assert review(cleared, lifted).refusals
+    lifted.learn(Note("TLO", "-40.000"))
+    assert not review(cleared, lifted).refusals
 
 
 @pytest.mark.parametrize(

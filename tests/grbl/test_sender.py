@@ -72,6 +72,21 @@ def test_an_offset_stored_behind_a_slow_move_is_waited_for(port):
     assert report.position == (5, 0, 0)
 
 
+def test_a_machine_whose_offset_the_program_clears_is_not_called_astray(port):
+    port.device.machine.startup[0] = "G43.1Z-4"
+    report = send("G21G90\nG49\nG0X1Y1Z5\nG1X9F600", port)
+    assert report.position == (9, 1, 5)
+
+
+@pytest.mark.parametrize("offset", ["", "G92X5"])
+def test_work_zero_that_the_reset_forgot_is_told(port, offset):
+    port.device.machine.startup[0] = offset
+    with pytest.raises(MachineError, match="--from-line") as caught:
+        send("G0X9\nG1X2Y1X3\n", port)
+    told = ("set work zero again" in str(caught.value), "--zero-set" in str(caught.value))
+    assert told == (bool(offset), bool(offset))
+
+
 def test_a_spindle_left_on_is_switched_off(port):
     send("M3S1000\nG1X1F600", port)
     assert port.device.machine.spindle == 0

@@ -85,6 +85,16 @@ def test_an_error_names_its_own_line_not_the_last_one_sent():
     assert streaming.give(0.0) == b""
 
 
+def test_a_refused_line_is_the_last_that_counts_as_reached():
+    course = Course(15, (0.0, 0.0, 0.0))
+    feed = Feed(prepare("G0X1\nG1X2\nG0X3\nG0X4"), (0.0, 0.0, 0.0))
+    streaming = Streaming(feed, course, 128, Patience(), 0.0)
+    streaming.give(0.0)
+    take(streaming, "ok", "error:22")
+    course.report(parse("<Run|MPos:3.500,0.000,0.000|FS:100,0>"))
+    assert course.reached.number == 2
+
+
 def test_in_check_mode_errors_are_gathered():
     streaming = stream("G0X1\nG1X2\nG0X3", checking=True)
     streaming.give(0.0)

@@ -57,7 +57,8 @@ def test_what_cannot_be_followed_is_admitted(line):
 
 @pytest.mark.parametrize(
     ("line", "followed"),
-    [("G28", True), ("G91G30Z0", True), ("G53G0Z0", True), ("G38.2Z-9F50", True),
+    [("G28", True), ("G40G49G80", True), ("G92.1", True), ("G91G30Z0", True),
+     ("G53G0Z0", True), ("G38.2Z-9F50", True),
      ("G92X0", False), ("G55", False), ("G10L20P1X0", False), ("G43.1Z3", False)],
 )  # fmt: skip
 def test_places_are_found_again_unless_work_zero_moves(line, followed):
