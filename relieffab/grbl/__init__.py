@@ -1,6 +1,6 @@
 """Text to a machine: Grbl over serial.
 
-lines.py       one line: cleaned, checked; tracker.py, modal.py: where a program goes
+lines.py       one line: cleaned, checked; tracker.py, modal.py, way.py: where a program goes
 program.py     a whole program, checked and measured (before.py: programs of our own)
 protocol.py    one job as a pure state machine: bytes and the time in, bytes out
                stages: greeting.py, streaming.py, stop.py; stage.py is what they share

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from relieffab.grbl.messages import Point, Status
 from relieffab.grbl.program import Line
-from relieffab.grbl.tracker import Motion, Place
+from relieffab.grbl.way import Motion, Place
 
 TOLERANCE = 0.04
 """mm off the program's way that the chords of arcs and rounded reports explain."""

@@ -2,7 +2,8 @@
 
 from relieffab.grbl import lines
 from relieffab.grbl.program import Line, Program
-from relieffab.grbl.tracker import Motion, Place, Tracker
+from relieffab.grbl.tracker import Tracker
+from relieffab.grbl.way import Motion, Place
 
 
 class Feed:

@@ -15,7 +15,8 @@ from typing import IO
 
 from relieffab.errors import InputError
 from relieffab.grbl import lines
-from relieffab.grbl.tracker import Motion, Tracker
+from relieffab.grbl.tracker import Tracker
+from relieffab.grbl.way import Motion
 
 IN_MEMORY = 1 << 22
 """Bytes up to which a program needs no file."""

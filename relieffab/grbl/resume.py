@@ -8,7 +8,8 @@ from relieffab.grbl.messages import Point
 from relieffab.grbl.modal import Modal
 from relieffab.grbl.program import Program, top
 from relieffab.grbl.record import Record
-from relieffab.grbl.tracker import Place, Tracker
+from relieffab.grbl.tracker import Tracker
+from relieffab.grbl.way import Place
 
 SPIN_UP = 5.0
 """Seconds for the spindle to reach its speed."""

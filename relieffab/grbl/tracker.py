@@ -9,58 +9,19 @@ to clear, which `Controller.cleared_by` knows.
 
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from relieffab.grbl.modal import Modal
+from relieffab.grbl.way import Motion, Place, arc, length_of
 
 WORD = re.compile(r"([A-Z])([-+]?[\d.]+)")
 _PLAIN = re.compile(r"(?:G([01]))?(?:X([-\d.]+))?(?:Y([-\d.]+))?(?:Z([-\d.]+))?(?:F([\d.]+))?")
-SAG = 0.01
-"""mm that a chord may lie inside its arc."""
-FULL_CIRCLE_BELOW = 5e-7
-"""Radians of an arc that ends where it begins, within rounding."""
-
-Place = tuple[float | None, float | None, float | None]
-"""X, Y, Z in work coordinates, mm; None where an axis is not known."""
-
-_PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
 _PLAIN_LETTERS = "LNPT"
 _SHIFT = 92.0
 _PROBING = {38.2, 38.3, 38.4, 38.5}
 _AWAY = {28.0, 30.0, 53.0, *_PROBING}
 _UNFOLLOWED = {10.0, 28.1, 30.1, 43.1, _SHIFT, *map(float, range(55, 60))}
-
-
-class Motion(NamedTuple):
-    """One line's way.
-
-    Parameters
-    ----------
-    start : tuple
-    points : tuple of tuple
-        Ends of its straight pieces; arcs are cut every degree, large ones more often.
-    length : float
-        mm, over the axes that are known.
-    feed : float
-        mm/min; inf for a rapid.
-    """
-
-    start: Place
-    points: tuple[Place, ...]
-    length: float
-    feed: float
-
-    @property
-    def known(self) -> bool:
-        """True where it begins and ends at known places."""
-        return None not in self.start and None not in self.points[-1]
-
-    @property
-    def cutting(self) -> bool:
-        """True for G1, G2, G3."""
-        return self.feed != math.inf
 
 
 class Tracker:
@@ -196,12 +157,12 @@ class Tracker:
             else:
                 end[axis] = base + value * modal.scale
         goal = (end[0], end[1], end[2])
-        arc = modal.motion in (2, 3) and None not in start and None not in goal
-        points = tuple(self._arc(start, goal, centre)) if arc else (goal,)
+        curved = modal.motion in (2, 3) and None not in start and None not in goal
+        points = tuple(arc(modal, start, goal, centre)) if curved else (goal,)
         for point in points:
             self._enclose(point)
         self.position = goal
-        length = _length(start, points)
+        length = length_of(start, points)
         return Motion(start, points, length, self._feed(start, goal, length))
 
     def _feed(self, start: Place, end: Place, length: float) -> float:
@@ -226,58 +187,3 @@ class Tracker:
                 low[axis] = value
             if most is None or value > most:
                 high[axis] = value
-
-    def _arc(self, start: Place, end: Place, centre: dict[str, float]) -> Iterator[Place]:
-        """Points along an arc, a degree and `SAG` apart at most, the end point last."""
-        u, v, w = _PLANES[self.modal.plane]
-        scale = self.modal.scale
-        a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
-        clockwise = self.modal.motion == 2
-        if "R" in centre:
-            radius = centre["R"] * scale * (1 if clockwise else -1)
-            cu, cv = _centre(a[u], a[v], b[u], b[v], radius)
-        else:
-            cu = a[u] + centre.get("IJK"[u], 0.0) * scale
-            cv = a[v] + centre.get("IJK"[v], 0.0) * scale
-        radius = math.hypot(a[u] - cu, a[v] - cv)
-        begin = math.atan2(a[v] - cv, a[u] - cu)
-        turn = -1.0 if clockwise else 1.0
-        sweep = turn * (math.atan2(b[v] - cv, b[u] - cu) - begin) % math.tau
-        sweep = turn * (sweep if sweep > FULL_CIRCLE_BELOW else math.tau)
-        steps = max(1, math.ceil(abs(sweep) / _step(radius)))
-        for step in range(1, steps):
-            angle = begin + sweep * step / steps
-            point = [0.0, 0.0, 0.0]
-            point[u] = cu + radius * math.cos(angle)
-            point[v] = cv + radius * math.sin(angle)
-            point[w] = a[w] + (b[w] - a[w]) * step / steps
-            yield point[0], point[1], point[2]
-        yield end
-
-
-def _step(radius: float) -> float:
-    """Angle of a chord that leaves the arc by `SAG` at most, radians."""
-    return min(math.radians(1), math.sqrt(8 * SAG / radius)) if radius else math.radians(1)
-
-
-def _centre(x0: float, y0: float, x1: float, y1: float, radius: float) -> tuple[float, float]:
-    """Centre of the arc of signed radius: to the right of the chord where positive."""
-    chord = math.hypot(x1 - x0, y1 - y0) or 1.0
-    away = math.sqrt(max(radius**2 - chord**2 / 4, 0.0)) * math.copysign(1.0, radius)
-    return (
-        (x0 + x1) / 2 + away * (y1 - y0) / chord,
-        (y0 + y1) / 2 - away * (x1 - x0) / chord,
-    )
-
-
-def _length(start: Place, points: tuple[Place, ...]) -> float:
-    """Length of a polyline, over the axes known at both ends of each piece, mm."""
-    total, a = 0.0, start
-    for b in points:
-        square = 0.0
-        for p, q in zip(a, b, strict=True):
-            if p is not None and q is not None:
-                square += (q - p) ** 2
-        total += math.sqrt(square)
-        a = b
-    return total
