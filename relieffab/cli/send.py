@@ -71,9 +71,7 @@ def send(
     asked = [check, trace, probe is not None, resume or from_line is not None or bool(from_time)]
     if sum(asked) > 1 or (from_line is not None and from_time):
         raise InputError("of --check, --trace, --probe, --resume, --from-line and --from-time, one")
-    from relieffab.job.proof import check_certificate
-
-    for note in check_certificate(program):
+    for note in _certified(program):
         console.message(f"note: {note}")
     whole = _read(program)
     job, kept = _wanted(
@@ -84,6 +82,18 @@ def send(
     report = _run(job, port, baud, kept, ask=not yes)
     what = "traced" if trace else "probed" if probe is not None else "carved"
     return _tell(report, as_json=as_json, check=check, what=what)
+
+
+def _certified(program: Path) -> list[str]:
+    """Ask for the program's certificate; one changed since is judged, which loads much."""
+    from relieffab.job.certificate import check_certificate
+
+    notes = check_certificate(program)
+    if notes is None:
+        from relieffab.job.proof import judged_again
+
+        notes = judged_again(program)
+    return notes
 
 
 def stream(program: str, url: str) -> "SendReport":

@@ -1,6 +1,5 @@
 """The programs of a job, written with all that judges them."""
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -16,6 +15,7 @@ from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import foretold, write_program
+from relieffab.job.certificate import file_hash
 from relieffab.job.chain import Planned, setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
@@ -172,8 +172,3 @@ def material_notes(setup: Setup, paths: Sequence[Toolpath]) -> list[str]:
 
 def _numbered(notes: Sequence[str]) -> dict[str, str]:
     return {f"note {k}": note for k, note in enumerate(notes, 1)}
-
-
-def file_hash(path: Path) -> str:
-    """Return a file's SHA-256, in hexadecimal."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()

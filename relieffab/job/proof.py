@@ -13,8 +13,7 @@ from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.verify import Verification, verify
 from relieffab.grid import Grid
-from relieffab.job.folder import REPORT
-from relieffab.job.programs import file_hash
+from relieffab.job.certificate import RELIEF, file_hash, program_names
 from relieffab.job.report import read_report
 from relieffab.machine import Machine, Material, Use
 from relieffab.picture import deviation_map, png8, predicted_look
@@ -26,7 +25,6 @@ from relieffab.toolpath.positions import Position
 
 Part = dict[str, Any]
 
-RELIEF = "relief.tiff"
 DEVIATION, LOOK = "deviation.png", "look.png"
 WIDEST = 2048  # pixels of the simulated surface that is lit
 
@@ -62,11 +60,6 @@ def judge(
         text = path.read_text(encoding="latin-1")
         programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
     return verify(programs, cutters, relief, setup, positions=positions, progress=progress)
-
-
-def program_names(report: Mapping[str, Any]) -> list[str]:
-    """Name the files of the programs, each once, in their order."""
-    return list(dict.fromkeys(str(part["file"]) for part in report["programs"]))
 
 
 def _setup(report: Mapping[str, Any], depth: float) -> Setup:
@@ -180,50 +173,23 @@ def carved_relief(verdict: Verification, relief: Relief) -> Relief:
     )
 
 
-def certificate(report: Mapping[str, Any], folder: Path) -> Part:
-    """Name what was proved by its content: programs and relief."""
-    names = program_names(report)
-    return {
-        "programs": {name: file_hash(folder / name) for name in names},
-        "relief": report["relief"].get("sha256"),
-    }
-
-
-def check_certificate(program: Path) -> list[str]:
-    """Ask whether a program that is about to be sent was proved as it stands.
-
-    A program that was changed since is judged anew, from its text.
-
-    Parameters
-    ----------
-    program : Path
+def judged_again(program: Path) -> list[str]:
+    """Judge a program that was changed since it was proved, with its job's others.
 
     Returns
     -------
     list of str
-        What a person should know; nothing where the certificate holds.
+        What a person should know.
 
     Raises
     ------
     FindingsError
-        If it would not carve the relief, or was found not to.
+        If it would not carve the relief.
     InputError
         If it cannot be read as a program.
     """
     folder = program.parent
-    if not (folder / REPORT).is_file():
-        return [f"there is no {REPORT} beside {program.name}: nobody proved it"]
-    report = read_report(folder)
-    proof = report.get("verification") or {}
-    held = proof.get("certificate") or {}
-    if program.name in (aids := {part["file"]: part["sha256"] for part in report.get("aids", [])}):
-        return _check_aid(program, aids[program.name])
-    if program.name not in program_names(report):
-        return [f"{program.name} is none of this job's programs: nobody proved it"]
-    same = held.get("programs", {}).get(program.name) == file_hash(program)
-    if same and held.get("relief") == file_hash(folder / RELIEF) and proof.get("ok") is True:
-        return []
-    verdict = judge(read_relief(folder / RELIEF), report, folder)
+    verdict = judge(read_relief(folder / RELIEF), read_report(folder), folder)
     if not verdict.ok:
         raise FindingsError(
             f"{program.name} is not as it was proved, and does not carve the relief; nothing sent",
@@ -232,14 +198,3 @@ def check_certificate(program: Path) -> list[str]:
             hint="relieffab toolpath writes the programs again",
         )
     return [f"{program.name} is not as it was proved; judged again, it carves the relief"]
-
-
-def _check_aid(program: Path, known: str) -> list[str]:
-    """Refuse a probe or an outline that is not as the job wrote it: neither can be judged."""
-    if file_hash(program) != known:
-        raise FindingsError(
-            f"{program.name} is not as the job wrote it; nothing sent",
-            where=str(program),
-            hint="relieffab toolpath writes it again",
-        )
-    return []

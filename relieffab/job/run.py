@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import chain, drawn, programs, proof, solids
+from relieffab.job import certificate, chain, drawn, programs, proof, solids
 from relieffab.job.folder import (
     ALL,
     PROGRAMS,
@@ -126,7 +126,7 @@ def _prove(
         verdict = proof.judge(relief, report, folder, progress)
         report["verification"] = {
             **proof.verification_part(verdict, relief),
-            "certificate": proof.certificate(report, folder),
+            "certificate": certificate.certificate(report, folder),
             "pictures": proof.write_pictures(verdict, relief, folder),
         }
     if not verdict.ok:

@@ -8,6 +8,7 @@ import pytest
 from relieffab.errors import FindingsError, InputError
 from relieffab.grid import Grid
 from relieffab.job import chain, programs, proof, report
+from relieffab.job.certificate import certificate
 from relieffab.job.folder import PROGRAMS
 from relieffab.job.settings import default_job
 from relieffab.relief.model import Relief
@@ -43,7 +44,7 @@ def written(request, tmp_path_factory):
     verdict = proof.judge(relief, facts, folder)
     facts["verification"] = {
         **proof.verification_part(verdict, relief),
-        "certificate": proof.certificate(facts, folder),
+        "certificate": certificate(facts, folder),
     }
     facts = json.loads(json.dumps(facts))
     (folder / "report.json").write_text(json.dumps(facts))

@@ -8,7 +8,8 @@ import pytest
 from relieffab.errors import InputError
 from relieffab.gcode.verify import Verification, figure_nodes
 from relieffab.grid import Grid
-from relieffab.job.proof import carved_relief, check_certificate, verification_part, write_pictures
+from relieffab.job.certificate import check_certificate
+from relieffab.job.proof import carved_relief, verification_part, write_pictures
 from relieffab.relief.model import Relief
 
 
