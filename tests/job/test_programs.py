@@ -8,7 +8,7 @@ import pytest
 from relieffab.errors import FindingsError, InputError
 from relieffab.grid import Grid
 from relieffab.job import chain, programs, proof, report
-from relieffab.job.certificate import certificate
+from relieffab.job.certificate import certificate, check_certificate
 from relieffab.job.folder import PROGRAMS
 from relieffab.job.settings import default_job
 from relieffab.relief.model import Relief
@@ -85,14 +85,15 @@ def test_they_are_proved_together(written):
 def test_the_certificate_holds_for_each_and_not_for_another_place(written):
     folder, facts = written
     for name in [*NAMES, *AIDS]:
-        assert proof.check_certificate(folder / name) == []
+        assert check_certificate(folder / name) == []
     moved = json.loads(json.dumps(facts))
     moved["programs"][3]["position"]["zero"][0] -= 0.5
     moved["verification"] = {}
     try:
         (folder / "report.json").write_text(json.dumps(moved))
+        assert check_certificate(folder / NAMES[3]) is None
         with pytest.raises(FindingsError, match="gouges the relief"):
-            proof.check_certificate(folder / NAMES[3])
+            proof.judged_again(folder / NAMES[3])
     finally:
         (folder / "report.json").write_text(json.dumps(facts))
 
