@@ -85,8 +85,11 @@ class Outline:
         x, y : array_like
             mm.
         by : float, optional
-            How much further in, mm; less than 0 is further out.
+            How much further in, mm; less than 0 is further out.  From `room` on there
+            is no inside.
         """
+        if by >= self.room:
+            return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)), bool)
         inner = self.inset(by)
         dx = np.abs(np.asarray(x, float) - self.width / 2)
         y = np.asarray(y, float) - by

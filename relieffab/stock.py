@@ -116,8 +116,6 @@ class Stock:
 
     def on_face(self, x: ArrayLike, y: ArrayLike, margin: float = 0.0) -> NDArray[np.bool_]:
         """Say which places lie on the level face, mm; `margin` or more from all that bounds it."""
-        if self.rim + margin >= self.outline.room:
-            return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)), bool)
         found = self.outline.inside(x, y, by=self.rim + margin)
         for hole in self.holes:
             away = np.hypot(np.subtract(x, hole.at[0]), np.subtract(y, hole.at[1]))
@@ -204,9 +202,7 @@ def _check_frame(frame: Frame, outline: Outline, thickness: float) -> None:
 def _within(stock: Stock, at: Place, start: float, end: float) -> bool:
     """Say whether a place is inside the outline by more than `start`, and less than `end`, mm."""
     outline = stock.outline
-    if start >= outline.room or not outline.inside(*at, by=start):
-        return False
-    return end >= outline.room or not outline.inside(*at, by=end)
+    return bool(outline.inside(*at, by=start)) and not outline.inside(*at, by=end)
 
 
 def _check_hole(hole: Hole, stock: Stock) -> None:
@@ -233,9 +229,7 @@ def _check_hole(hole: Hole, stock: Stock) -> None:
 def _check_keyhole(key: Keyhole, stock: Stock) -> None:
     margin = key.head / 2 + WALL
     ends = (key.at, (key.at[0], key.at[1] - key.travel))
-    if margin >= stock.outline.room or not all(
-        bool(stock.outline.inside(x, y, by=margin)) for x, y in ends
-    ):
+    if not all(stock.outline.inside(x, y, by=margin) for x, y in ends):
         raise InputError(
             "a keyhole runs over the stock's side",
             expected=f"{margin:g} mm or more inside it, down to {key.travel:g} mm under its place",

@@ -78,3 +78,12 @@ def test_places_come_in_arrays():
 def test_what_is_no_outline_is_refused(given_, message):
     with pytest.raises(InputError, match=message):
         Outline(*given_)
+
+
+@pytest.mark.parametrize("outline", OUTLINES)
+def test_from_its_room_on_nothing_is_inside(outline):
+    middle = np.array([outline.width, outline.height]) / 2
+    assert outline.inside(*middle, by=outline.room - 0.01).shape == ()
+    for by in (outline.room, 2 * outline.room):
+        assert not outline.inside(*middle, by=by)
+        assert outline.inside(np.zeros((3, 1)), np.zeros(4), by=by).shape == (3, 4)

@@ -127,8 +127,7 @@ class Limits:
         x, y, z = points.T
         low = z < self.stock.top - SLACK
         keep = frame.width + self.cutter.radius - SLACK
-        inside = keep < self.stock.outline.room and self.stock.outline.inside(x, y, by=keep)
-        outside = np.logical_not(inside) & np.ones(len(points), bool)
+        outside = ~self.stock.outline.inside(x, y, by=keep)
         for either in (low, outside):
             either[1:] |= either[:-1].copy()
         return low & outside
