@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
-from relieffab.toolpath.envelope import Places, Terrain, tip_heights, tip_surface
+from relieffab.toolpath.envelope import Places, Terrain, nodes, tip_heights, tip_surface
 from relieffab.toolpath.simplify import simplify
 from relieffab.toolpath.trace import Trace, follow, sample
 
@@ -48,6 +49,11 @@ class Work:
     def low(self, places: Places) -> Floats:
         """(rows, count) cutter locations at rows of places, mm."""
         return tip_surface(self.relief, self.cutter, places, allowance=self.allowance)
+
+    @cached_property
+    def low_at_nodes(self) -> Floats:
+        """(rows + 1, cols + 1) cutter locations at the relief's nodes, mm."""
+        return self.low(nodes(self.relief.grid))
 
     def top(self, places: Places) -> Floats:
         """(rows, count) heights at which the cutter would first touch the stock, mm."""

@@ -37,7 +37,7 @@ def waterlines(work: Work, steep: Bools, apart: float) -> list[Floats]:
     if not steep.any():
         return []
     places = nodes(work.relief.grid)
-    low = work.low(places)
+    low = work.low_at_nodes
     near = binary_dilation(steep, iterations=2)
     count = ceil(-float(low.min()) / apart)
     lines = []
