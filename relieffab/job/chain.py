@@ -169,15 +169,21 @@ def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
 
 def write_layers(layers: Layers, job: Job, folder: Path) -> None:
     """Write the three images and the drawing: layers/."""
+    write_drawing(layers.strokes, job, folder)
     inside = folder / "layers"
-    inside.mkdir()
     seen = layers.depth[layers.mask]
     span = max(float(np.ptp(seen)), 1e-12)
     near = np.where(layers.mask, (layers.depth - seen.min()) / span, 0.0)
     (inside / "depth.png").write_bytes(png16(near))
     (inside / "lambert.png").write_bytes(png16(layers.shading.mean(axis=0)))
     (inside / "lines.png").write_bytes(png16(1.0 - layers.lines))
-    drawing = strokes_to_svg(layers.strokes, job.size, width=job.line_width)
+
+
+def write_drawing(strokes: Sequence[Stroke], job: Job, folder: Path) -> None:
+    """Write the drawing alone into a new layers/, where `drawn.read_strokes` finds it."""
+    inside = folder / "layers"
+    inside.mkdir()
+    drawing = strokes_to_svg(strokes, job.size, width=job.line_width)
     (inside / "lines.svg").write_text(drawing, encoding="utf-8")
 
 

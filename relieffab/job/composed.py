@@ -11,7 +11,6 @@ from relieffab.job.folder import ALL, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of, resolve
 from relieffab.job.stocks import stock_of
-from relieffab.layers.lines.svg import strokes_to_svg
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
@@ -113,9 +112,7 @@ def make(
 def _write(
     relief: Relief, strokes: Sequence[Stroke], job: Job, report: Report, folder: Path
 ) -> None:
-    (folder / "layers").mkdir()
-    drawing = strokes_to_svg(strokes, job.size, width=job.line_width)
-    (folder / "layers" / "lines.svg").write_text(drawing, encoding="utf-8")
+    chain.write_drawing(strokes, job, folder)
     report["relief"] = chain.relief_part(relief)
     report["relief"]["sha256"] = chain.write_relief(relief, folder)
     _, report["picture"] = chain.write_picture(relief, None, folder)

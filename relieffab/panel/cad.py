@@ -62,9 +62,8 @@ def _prism(cq: Any, outline: Outline, by: float, low: float, high: float) -> Any
         plan = plane.rect(w, h, centered=False)
     solid = plan.extrude(high - low)
     if inner.corner:
-        near = "<Y" if inner.kind == "arched" else None
-        edges = solid.faces(near).edges("|Z") if near else solid.edges("|Z")
-        solid = edges.fillet(inner.corner)
+        sides = solid.faces("<Y") if inner.kind == "arched" else solid
+        solid = sides.edges("|Z").fillet(inner.corner)
     return solid
 
 

@@ -5,11 +5,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from relieffab.grid import Grid
 from relieffab.picture.above import heights_above, solid_heights
 from relieffab.picture.render import OpenGLMissingError, TriangleMesh, render_panel
 from relieffab.picture.stone import LIGHT, hillshade, shade
 from relieffab.relief.model import Relief
 
+Floats = NDArray[np.float64]
 Method = Literal["pyrender", "hillshade"]
 
 
@@ -41,11 +43,7 @@ def panel_picture(
     """
     if panel is None:
         return hillshade(relief, light), "hillshade"
-    face = shade(heights_above(relief, panel), relief.grid.pitch, light)
-    try:
-        return render_panel(panel, face, relief.grid, width=width, light=light), "pyrender"
-    except OpenGLMissingError:
-        return face, "hillshade"
+    return _drawn(panel, relief.grid, heights_above(relief, panel), width, light)
 
 
 def solid_picture(
@@ -69,8 +67,14 @@ def solid_picture(
     method : str
         As `panel_picture`.
     """
-    grid, heights = solid_heights(solid, pitch)
-    face = shade(heights, pitch, light)
+    return _drawn(solid, *solid_heights(solid, pitch), width, light)
+
+
+def _drawn(
+    solid: TriangleMesh, grid: Grid, heights: Floats, width: int, light: ArrayLike
+) -> tuple[NDArray[np.uint8], Method]:
+    """Draw a solid whose heights seen from above are known at a grid's nodes, mm."""
+    face = shade(heights, grid.pitch, light)
     try:
         return render_panel(solid, face, grid, width=width, light=light), "pyrender"
     except OpenGLMissingError:
