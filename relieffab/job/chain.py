@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
@@ -38,6 +39,7 @@ from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
 from relieffab.toolpath.positions import Position, positions
+from relieffab.toolpath.reach import leaves
 from relieffab.toolpath.settings import Milling, Settings
 
 Part = dict[str, Any]
@@ -65,7 +67,7 @@ def carving_of(job: Job) -> Carving:
         method=job.method,
         carve=job.carve,
         line_tip=tip.profile if job.line_profile == "cutter" else None,
-        reachable=job.reachable == "yes",
+        reachable=partial(leaves, cutter=tip) if job.reachable == "yes" else None,
     )
 
 

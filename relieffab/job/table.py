@@ -119,7 +119,7 @@ SETTINGS = (
         "reachable",
         readers.one_of("no", "yes"),
         "no",
-        "yes: solve again without the forms that the finest cutter cannot reach",
+        "yes: solve again without the forms that the finest cutter cannot reach, to within 0.02 mm",
     ),
     Setting("units", readers.one_of("mm", "in"), "mm", "of the programs: mm or in"),
     Setting(

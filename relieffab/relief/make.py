@@ -13,6 +13,7 @@ from relieffab.relief.edge import wall
 from relieffab.relief.foot import carved
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.names import LINES, SUNKEN
+from relieffab.relief.reach import carvable
 from relieffab.relief.solve import Solution, solve_heights
 from relieffab.relief.targets import Carving
 
@@ -40,6 +41,8 @@ def finish(heights: Floats, layers: Layers, carving: Carving, edge: Floats) -> R
     figure = nodes_of(layers.mask)
     raised = heights - heights[figure].max()
     left = carved(raised, figure, edge, layers.pitch, carving)
+    if carving.reachable is not None:
+        left = np.minimum(carvable(left, layers.pitch, carving.reachable), 0.0)
     return Relief(layers.grid, left, layers.mask, carving.depth)
 
 

@@ -10,6 +10,10 @@ from relieffab.compiled import parallel_kernel, prange
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Profile = Callable[[ArrayLike], Floats]
+Leaves = Callable[[Floats, float], Floats]
+"""Heights at nodes and their pitch, mm, to what a cutter leaves of them: see `carvable`."""
+
+NEAR = 0.02  # mm above a relief that its finest cutter need not come any nearer
 
 TALL, WIDE = 8, 64  # nodes of a tile: its rows are long enough for vector instructions
 TURN = 32  # offsets after which a tile's lowest node is found anew
@@ -139,3 +143,32 @@ def closing(heights: Floats, pitch: float, profile: Profile) -> Floats:
     out = heights.copy()
     out[box] = np.maximum(-left, sunken)
     return out
+
+
+def carvable(heights: Floats, pitch: float, leaves: Leaves) -> Floats:
+    """Raise a surface until a cutter comes near enough to all of it.
+
+    What a cutter leaves is round in every valley.  Of that the nodes are kept, and
+    between the triangles through them the cutter stays a little higher again: each
+    round widens the narrowest valleys by a part of a pixel, until none is too narrow.
+
+    Parameters
+    ----------
+    heights : (rows, cols) ndarray
+        At nodes, mm, none above 0.
+    pitch : float
+        mm.
+    leaves : callable
+        What the cutter leaves of heights at nodes, given those and the pitch: nowhere
+        below them nor above 0.
+
+    Returns
+    -------
+    (rows, cols) ndarray
+        mm; nowhere below the heights nor above 0, and what the cutter leaves of it is
+        at most `NEAR` above it.
+    """
+    # Every round but the last raises some node by more than `NEAR`, and none above 0.
+    while (left := leaves(heights, pitch) - heights).max() > NEAR:
+        heights = heights + left
+    return heights

@@ -145,6 +145,6 @@ def solve_heights(
             report=progress if finest else silent,
         )
         above, figure = place.put(solved - terms.form, shape), place.put(terms.figure, shape)
-        if finest and carving.reachable:
+        if finest and carving.reachable is not None:
             solved, descent = _give_up(terms, solved, place.take(edge), carving, tolerance)
     return Solution(**vars(descent), fitted=fitted, heights=place.put(solved, shape))

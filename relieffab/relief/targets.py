@@ -21,7 +21,7 @@ from relieffab.relief.energy.terms import Bounds, Terms, Weights
 from relieffab.relief.groove import inked, swept
 from relieffab.relief.model import inner_nodes, nodes_of, pixel_slopes, to_nodes
 from relieffab.relief.names import ALL, LINES, SUNKEN, SURFACE, known, part
-from relieffab.relief.reach import Profile
+from relieffab.relief.reach import Leaves, Profile
 from relieffab.relief.window import figure_size
 
 Floats = NDArray[np.float64]
@@ -64,9 +64,12 @@ class Carving:
     line_tip : callable, optional
         Distance from a cutter's axis to its height above its lowest point, mm: lines
         are grooves of that shape, deeper for principal ones, and not rounded strokes.
-    reachable : bool
-        Solve for what the ball reaches: forms that it cannot are given up, and their
-        surroundings find their best heights with what is left.
+    reachable : callable, optional
+        What the finest cutter leaves of heights at nodes, given those and the pitch, mm,
+        as `toolpath.reach.leaves` says it: the relief is solved for what the ball
+        reaches (forms that it cannot are given up, and their surroundings find their
+        best heights with what is left), and raised where the cutter could come no
+        nearer than `reach.NEAR`.
     """
 
     depth: float = 3.0
@@ -81,7 +84,7 @@ class Carving:
     method: str = SUNKEN
     carve: str = ALL
     line_tip: Profile | None = None
-    reachable: bool = False
+    reachable: Leaves | None = None
 
     def __post_init__(self) -> None:
         known(self.method)

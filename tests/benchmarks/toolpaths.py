@@ -11,25 +11,21 @@ import time
 from pathlib import Path
 
 import numpy as np
-from envelope import relief as relief_of_hills
 
 import relieffab as rf
 from relieffab import profiles
 from relieffab.compiled import kernel
+from relieffab.gcode.ease import eased
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.read import read_program
-from relieffab.gcode.simulate import simulate
+from relieffab.gcode.setup import Setup
+from relieffab.gcode.slab import Slab
+from relieffab.gcode.verify import verify
 from relieffab.gcode.write import write_program
-from relieffab.grid import Grid
-from relieffab.machine import cutting
 from relieffab.stock import Stock
-from relieffab.toolpath.bench import Bench
-from relieffab.toolpath.envelope import Terrain, nodes, tip_surface
-from relieffab.toolpath.link import Linking, link
 from relieffab.toolpath.outline import height_at, outline_of, radius_at
-from relieffab.toolpath.path import Toolpath
-from relieffab.toolpath.plan import REACH, plan
-from relieffab.toolpath.settings import Settings
+from relieffab.toolpath.plan import plan
+from relieffab.toolpath.reach import leaves
 
 CUTTERS = "flat-3.175", "ball-3.175", "tapered-ball-1"
 SPACING = 0.2  # mm, of the places where a cut is told from air
@@ -73,18 +69,19 @@ def air_share(path, stock, grid):
     return float(length[cutting & ~out].sum()), float(length[cutting].sum())
 
 
-def reachable(relief, cutter):
-    """Excess that a cutter cannot help leaving at the relief's nodes, mm."""
-    tips = tip_surface(Terrain.of(relief), cutter, nodes(relief.grid))
-    low = tips.min()
-    turned = tip_surface(Terrain.over(relief.grid, low - tips), cutter, nodes(relief.grid))
-    return low - turned - relief.heights
-
-
 def upright(relief):
     """Cosine of the steepest slope next to each node."""
     down, across = np.gradient(relief.heights, relief.grid.pitch)
     return 1 / np.hypot(1, np.hypot(down, across))
+
+
+def written(paths, setup, slab):
+    """Ease and write toolpaths; texts, and the paths as written."""
+    texts, done = [], []
+    for path in paths:
+        done.append(eased(path, setup, slab))
+        texts.append(write_program(done[-1], setup, slab))
+    return texts, done
 
 
 def judge(folder):
@@ -94,10 +91,11 @@ def judge(folder):
     cutters = tuple(profiles.cutter(name) for name in CUTTERS)
     x, y = relief.grid.node_axes()
     stock = Stock(float(x[-1]), float(y[0]), 12.0)
+    setup = Setup(machine, material, stock, relief.depth)
     for _ in range(2):
         start = time.perf_counter()
         paths = plan(relief, (), machine, material, cutters=cutters, stock=stock)
-        texts = [write_program(path, machine, stock, depth=relief.depth) for path in paths]
+        texts, paths = written(paths, setup, Slab.whole(relief.grid, stock))
         seconds = time.perf_counter() - start
     print(f"{folder}: {seconds:.2f} s planned and written")
     programs = [read_program(text, name=path.name) for text, path in zip(texts, paths, strict=True)]
@@ -114,38 +112,17 @@ def judge(folder):
         )
         air, length, retracts, whole = air + lost, length + all_, retracts + rapid, whole + time_
     print(f"  whole: air {air / length:.2%}, rapids {retracts / whole:.2%}")
-    carved = simulate(programs, [path.cutter for path in paths], relief.grid, stock, refine=1)
-    excess = carved.heights - relief.heights
+    verdict = verify(programs, [path.cutter for path in paths], relief, setup)
+    excess = verdict.deviation[::4, ::4]
     figure = relief.heights < 0
     square = excess * upright(relief)
-    best = reachable(relief, cutters[2])
+    best = leaves(relief.heights, relief.grid.pitch, cutters[2]) - relief.heights
     print(f"  within 0.05 mm: {(excess[figure] <= 0.05).mean():.2%} upright, "
           f"{(square[figure] <= 0.05).mean():.2%} square to the surface; "
-          f"reach {(best[figure] <= 0.05).mean():.2%}; gouge {1e3 * max(-excess.min(), 0):.1f} um; "
+          f"reach {(best[figure] <= 0.05).mean():.2%}; gouge {1e3 * verdict.gouge_mm:.1f} um; "
           f"beyond reach by 0.05: {((excess - best)[figure] > 0.05).mean():.2%}")  # fmt: skip
 
 
-def finishing():
-    """Time one finishing program of rows alone, as depth-map programs make it."""
-    grid = Grid.on_panel((100.0, 75.0), (1024, 768))
-    heights = relief_of_hills(grid)
-    relief = rf.Relief(grid, heights, np.ones(grid.shape, bool), 5.0)
-    machine, cutter = profiles.machine("3018-prover"), profiles.cutter("ball-3.175")
-    use = cutting(cutter, profiles.material("softwood"), machine)
-    stock = Stock(100.0, 75.0, 12.0)
-    for _ in range(4):
-        start = time.perf_counter()
-        bench = Bench(Terrain.of(relief), Settings(stepover=3 * grid.pitch, tolerance=0.01))
-        points, feed = link(bench.finish(cutter, 5.0), Linking(machine, use, REACH))
-        planned = time.perf_counter() - start
-        path = Toolpath("finish", points, feed, cutter, use.rpm)
-        text = write_program(path, machine, stock, depth=relief.depth)
-        seconds = time.perf_counter() - start
-        print(f"1024 x 768, every third row, ball 3.175: {planned:.2f} s planned, "
-              f"{seconds:.2f} s with writing, {text.count(chr(10)):,} lines")  # fmt: skip
-
-
 if __name__ == "__main__":
-    finishing()
     for given in sys.argv[1:]:
         judge(given)

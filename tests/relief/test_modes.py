@@ -74,7 +74,7 @@ def test_a_groove_takes_the_tips_shape_and_is_solved_with_the_surface(drawn):
 def test_what_no_tip_reaches_is_given_up_while_solving(drawn):
     short, energy = [], []
     edge = wall(drawn.mask, drawn.pitch, 80.0, 1.5)
-    for reachable in (False, True):
+    for reachable in (None, lambda heights, pitch: closing(heights, pitch, ball(1.0))):
         carving = Carving(depth=1.5, line_depth=0.5, fillet=1.0, reachable=reachable)
         s = solve_heights(drawn, carving, edge, tolerance=1e-4)
         walled = np.maximum(s.heights, edge)

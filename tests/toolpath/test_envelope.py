@@ -1,26 +1,16 @@
 """The compiled drop-cutter against dense sampling and against plane geometry."""
 
 import math
+from dataclasses import replace
 
 import numba
 import numpy as np
 import pytest
 
-from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.relief.model import Relief
 from relieffab.toolpath.envelope import Places, Terrain, tip_heights, tip_surface
 
-COMMON = {"flute_length": 9.0, "stepdown": 1.0, "feed": 800.0, "plunge": 200.0, "rpm": 9000.0}
-CUTTERS = {
-    "flat": Cutter("c", "flat", 1.5, **COMMON),
-    "ball": Cutter("c", "ball", 1.5, **COMMON),
-    "bull": Cutter("c", "bull", 1.6, corner_radius=0.3, **COMMON),
-    "vee": Cutter("c", "vee", 2.0, angle=60, tip_diameter=0.2, **COMMON),
-    "sharp vee": Cutter("c", "vee", 2.0, angle=90, **COMMON),
-    "tapered ball": Cutter("c", "tapered ball", 2.0, angle=20, tip_diameter=0.6, **COMMON),
-    "form": Cutter("c", "form", 2.0, points=((0, 0), (0.2, 0.05), (0.6, 0.3), (1, 1.5)), **COMMON),
-}
 GRID = Grid(9, 11, 0.4, (1.0, 5.0))
 DEPTH = 2.0
 
@@ -58,13 +48,12 @@ def sampled_tip_heights(relief, cutter, x, y):
 
 
 @pytest.mark.parametrize("kind", ["rough", "walls", "gentle"])
-@pytest.mark.parametrize("name", CUTTERS)
-def test_never_below_a_sampled_twin_and_close_above_it(name, kind):
+def test_never_below_a_sampled_twin_and_close_above_it(every_cutter, kind):
     rng = np.random.default_rng(3)
     relief = relief_of(random_heights(kind, rng))
     x, y = rng.uniform(0.6, 5.8, 40), rng.uniform(1.0, 5.4, 40)
-    fast = tip_heights(Terrain.of(relief), CUTTERS[name], x, y)
-    gap = fast - sampled_tip_heights(relief, CUTTERS[name], x, y)
+    fast = tip_heights(Terrain.of(relief), every_cutter, x, y)
+    gap = fast - sampled_tip_heights(relief, every_cutter, x, y)
     assert gap.min() > -1e-9
     assert np.quantile(gap, 0.9) < 0.001
     assert gap.max() < 0.1
@@ -78,22 +67,22 @@ def slope_relief(tangent):
 
 
 @pytest.mark.parametrize("tangent", [0.1, 0.3, 0.7])
-def test_ball_on_a_slope_touches_square_to_it(tangent):
+def test_ball_on_a_slope_touches_square_to_it(tangent, cutters):
     relief, x = slope_relief(tangent), 6.05
-    ball = CUTTERS["ball"]
+    ball = cutters["ball"]
     lifted = ball.radius * (math.hypot(1, tangent) - 1)
     found = tip_heights(Terrain.of(relief), ball, x, 6.13)
     assert found == pytest.approx(-tangent * x + lifted, abs=1e-9)
 
 
 @pytest.mark.parametrize("tangent", [0.1, 0.7])
-def test_flat_on_a_slope_rests_on_its_rim(tangent):
-    found = tip_heights(Terrain.of(slope_relief(tangent)), CUTTERS["flat"], 6.05, 6.13)
+def test_flat_on_a_slope_rests_on_its_rim(tangent, cutters):
+    found = tip_heights(Terrain.of(slope_relief(tangent)), cutters["flat"], 6.05, 6.13)
     assert found == pytest.approx(-tangent * (6.05 - 0.75), abs=1e-9)
 
 
-def test_bull_on_a_slope_touches_with_its_arc():
-    tangent, bull = 0.5, CUTTERS["bull"]
+def test_bull_on_a_slope_touches_with_its_arc(cutters):
+    tangent, bull = 0.5, cutters["bull"]
     found = tip_heights(Terrain.of(slope_relief(tangent)), bull, 6.05, 6.13)
     lifted = bull.flat_radius * tangent + 0.3 * (math.hypot(1, tangent) - 1)
     assert found == pytest.approx(-tangent * 6.05 + lifted, abs=1e-9)
@@ -106,16 +95,16 @@ def groove_relief():
     return relief_of(np.tile(np.minimum(np.abs(x - 6.0) - 1.2, 0.0), (41, 1)), grid)
 
 
-def test_vee_in_a_groove_of_its_own_angle_reaches_the_bottom():
-    found = tip_heights(Terrain.of(groove_relief()), CUTTERS["sharp vee"], 6.0, 6.13)
+def test_vee_in_a_groove_of_its_own_angle_reaches_the_bottom(cutters):
+    found = tip_heights(Terrain.of(groove_relief()), cutters["sharp vee"], 6.0, 6.13)
     assert found == pytest.approx(-1.2, abs=1e-9)
 
 
-def test_blunt_cutters_in_a_groove_rest_on_its_sides():
+def test_blunt_cutters_in_a_groove_rest_on_its_sides(cutters):
     terrain = Terrain.of(groove_relief())
-    ball = tip_heights(terrain, CUTTERS["ball"], 6.0, 6.13)
+    ball = tip_heights(terrain, cutters["ball"], 6.0, 6.13)
     assert ball == pytest.approx(-1.2 + 0.75 * (math.sqrt(2) - 1), abs=1e-9)
-    flat = tip_heights(terrain, CUTTERS["flat"], 6.0, 6.13)
+    flat = tip_heights(terrain, cutters["flat"], 6.0, 6.13)
     assert flat == pytest.approx(-1.2 + 0.75, abs=1e-9)
 
 
@@ -127,8 +116,8 @@ def wall_relief():
 
 
 @pytest.mark.parametrize("away", [0.749, 0.75, 0.751, 1.1])
-def test_flat_beside_a_wall_clears_it_by_its_radius_and_no_less(away):
-    found = tip_heights(Terrain.of(wall_relief()), CUTTERS["flat"], 6.0 + away, 6.13)
+def test_flat_beside_a_wall_clears_it_by_its_radius_and_no_less(away, cutters):
+    found = tip_heights(Terrain.of(wall_relief()), cutters["flat"], 6.0 + away, 6.13)
     if away <= 0.75:
         assert found == 0.0
     else:
@@ -136,18 +125,17 @@ def test_flat_beside_a_wall_clears_it_by_its_radius_and_no_less(away):
         assert found == pytest.approx(max(foot, -2.0), abs=1e-9)
 
 
-def test_tapered_ball_beside_a_wall_rests_on_the_walls_edge():
-    cutter = CUTTERS["tapered ball"]
+def test_tapered_ball_beside_a_wall_rests_on_the_walls_edge(cutters):
+    cutter = cutters["tapered ball"]
     found = tip_heights(Terrain.of(wall_relief()), cutter, 6.45, 6.13)
     assert found == pytest.approx(-float(cutter.profile(0.45)), abs=1e-9)
 
 
-@pytest.mark.parametrize("name", CUTTERS)
-def test_allowance_is_kept_in_every_direction(name):
+def test_allowance_is_kept_in_every_direction(every_cutter):
     """Grown by its allowance, a cutter still clears the surface by that distance."""
     rng = np.random.default_rng(5)
     relief = relief_of(random_heights("rough", rng))
-    cutter, allowance = CUTTERS[name], 0.12
+    cutter, allowance = every_cutter, 0.12
     terrain = Terrain.of(relief)
     z = tip_heights(terrain, cutter, 3.1, 3.4, allowance=allowance)
     for angle in np.linspace(0, 2 * np.pi, 16, endpoint=False):
@@ -156,8 +144,9 @@ def test_allowance_is_kept_in_every_direction(name):
     assert tip_heights(terrain, cutter, 3.1, 3.4) <= z - allowance + 1e-9
 
 
-def test_the_shank_clears_a_wall_that_the_flutes_would_pass():
-    cutter = Cutter("c", "flat", 0.6, shank_diameter=2.0, **{**COMMON, "flute_length": 1.5})
+def test_the_shank_clears_a_wall_that_the_flutes_would_pass(cutters):
+    flutes = {"diameter": 0.6, "flute_length": 1.5, "shank_diameter": 2.0}
+    cutter = replace(cutters["flat"], **flutes)
     places = Places((6.2, 6.13), 0.0, 0.05, 1.0, 1, 40)
     x, y = (axis.ravel() for axis in places.xy())
     found = tip_heights(Terrain.of(wall_relief()), cutter, x, y)
@@ -170,47 +159,47 @@ def test_the_shank_clears_a_wall_that_the_flutes_would_pass():
     assert np.allclose(tip_surface(Terrain.of(wall_relief()), cutter, places)[0], found, atol=1e-9)
 
 
-def test_the_face_goes_on_beyond_the_grid():
+def test_the_face_goes_on_beyond_the_grid(cutters):
     terrain = Terrain.of(relief_of(np.full(GRID.node_shape, -DEPTH)))
-    assert tip_heights(terrain, CUTTERS["ball"], [0.5, 1.0, 9.0], [3.0, 3.0, 9.0]).tolist() == [
+    assert tip_heights(terrain, cutters["ball"], [0.5, 1.0, 9.0], [3.0, 3.0, 9.0]).tolist() == [
         0,
         0,
         0,
     ]
-    near = tip_heights(terrain, CUTTERS["ball"], 1.3, 3.0)
-    assert near == pytest.approx(-float(CUTTERS["ball"].profile(0.3)), abs=1e-12)
+    near = tip_heights(terrain, cutters["ball"], 1.3, 3.0)
+    assert near == pytest.approx(-float(cutters["ball"].profile(0.3)), abs=1e-12)
 
 
-def test_the_answer_does_not_depend_on_the_number_of_threads():
+def test_the_answer_does_not_depend_on_the_number_of_threads(cutters):
     rng = np.random.default_rng(8)
     terrain = Terrain.of(relief_of(random_heights("rough", rng)))
     x, y = rng.uniform(0.6, 5.8, 3000), rng.uniform(1.0, 5.4, 3000)
-    many = tip_heights(terrain, CUTTERS["ball"], x, y)
+    many = tip_heights(terrain, cutters["ball"], x, y)
     threads = numba.get_num_threads()
     numba.set_num_threads(1)
     try:
-        one = tip_heights(terrain, CUTTERS["ball"], x, y)
+        one = tip_heights(terrain, cutters["ball"], x, y)
     finally:
         numba.set_num_threads(threads)
     assert np.array_equal(one, many)
 
 
-def test_inputs_stay_as_they_were():
+def test_inputs_stay_as_they_were(cutters):
     heights = random_heights("rough", np.random.default_rng(2))
     kept, x = heights.copy(), np.array([2.0, 3.0])
-    tip_heights(Terrain.over(GRID, heights), CUTTERS["ball"], x, np.array([3.0, 3.0]))
+    tip_heights(Terrain.over(GRID, heights), cutters["ball"], x, np.array([3.0, 3.0]))
     assert np.array_equal(heights, kept)
     assert x.tolist() == [2, 3]
 
 
-def test_a_part_is_the_whole_where_no_cutter_reaches_over_its_edge():
+def test_a_part_is_the_whole_where_no_cutter_reaches_over_its_edge(cutters):
     rng = np.random.default_rng(5)
     grid = Grid(40, 60, 0.2, (1.0, 9.0))
     whole = Terrain.over(grid, -DEPTH * rng.random(grid.node_shape))
     part = whole.within((4.0, 3.0), (7.05, 6.0), 1.0)
     assert part.heights.size < whole.heights.size / 2
     x, y = rng.uniform(4.0, 7.05, 300), rng.uniform(3.0, 6.0, 300)
-    for cutter in CUTTERS.values():
+    for cutter in cutters.values():
         assert np.allclose(
             tip_heights(part, cutter, x, y), tip_heights(whole, cutter, x, y), rtol=0, atol=1e-9
         )

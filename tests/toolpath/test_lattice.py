@@ -7,21 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.relief.model import Relief
 from relieffab.toolpath.envelope import Places, Terrain, nodes, tip_heights, tip_surface
 
-COMMON = {"flute_length": 9.0, "stepdown": 1.0, "feed": 800.0, "plunge": 200.0, "rpm": 9000.0}
-CUTTERS = {
-    "flat": Cutter("c", "flat", 1.5, **COMMON),
-    "ball": Cutter("c", "ball", 1.5, **COMMON),
-    "bull": Cutter("c", "bull", 1.6, corner_radius=0.3, **COMMON),
-    "vee": Cutter("c", "vee", 2.0, angle=60, tip_diameter=0.2, **COMMON),
-    "sharp vee": Cutter("c", "vee", 2.0, angle=90, **COMMON),
-    "tapered ball": Cutter("c", "tapered ball", 2.0, angle=20, tip_diameter=0.6, **COMMON),
-    "form": Cutter("c", "form", 2.0, points=((0, 0), (0.2, 0.05), (0.6, 0.3), (1, 1.5)), **COMMON),
-}
 GRID = Grid(19, 23, 0.2, (1.0, 5.0))
 
 
@@ -36,14 +25,13 @@ def field(kind, rng):
 
 @pytest.mark.parametrize("angle", [0.0, 90.0, -37.0, 161.0])
 @pytest.mark.parametrize("kind", ["rough", "walls", "smooth"])
-@pytest.mark.parametrize("name", CUTTERS)
-def test_rows_are_the_points_of_the_other_kernel(name, kind, angle):
+def test_rows_are_the_points_of_the_other_kernel(every_cutter, kind, angle):
     rng = np.random.default_rng(11)
     terrain = Terrain.over(GRID, field(kind, rng))
     places = Places((rng.uniform(0, 6), rng.uniform(0, 6)), angle, 0.13, 0.17, 25, 31)
     for allowance in (0.0, 0.003, 0.12):
-        fast = tip_surface(terrain, CUTTERS[name], places, allowance=allowance)
-        slow = tip_heights(terrain, CUTTERS[name], *places.xy(), allowance=allowance)
+        fast = tip_surface(terrain, every_cutter, places, allowance=allowance)
+        slow = tip_heights(terrain, every_cutter, *places.xy(), allowance=allowance)
         assert np.allclose(fast, slow, atol=1e-7)
 
 
@@ -51,25 +39,24 @@ SMALL = Grid(6, 7, 0.3, (0.0, 1.8))
 FINE = np.arange(-1.0, 8.01, 0.25)
 
 
-@pytest.mark.parametrize("name", CUTTERS)
 @settings(max_examples=25, deadline=None)
 @given(
     heights=arrays(float, SMALL.node_shape, elements=st.sampled_from([0.0, -0.4, -1.1, -2.0])),
     noise=st.integers(0, 2**32 - 1),
 )
-def test_no_place_gouges_at_four_times_the_resolution(name, heights, noise):
+def test_no_place_gouges_at_four_times_the_resolution(every_cutter, heights, noise):
     """Walls a pixel wide, plateaus, single posts and pits: whatever is drawn."""
     rng = np.random.default_rng(noise)
     if noise % 2:
         heights = np.clip(heights + 0.05 * rng.standard_normal(heights.shape), -2.0, 0.0)
     relief = Relief(SMALL, heights, np.ones(SMALL.shape, bool), 2.0)
     places = Places((-0.1, rng.uniform(1.7, 1.9)), rng.uniform(-20, 20), 0.11, 0.13, 12, 18)
-    tips = tip_surface(Terrain.of(relief), CUTTERS[name], places)
+    tips = tip_surface(Terrain.of(relief), every_cutter, places)
     sx, sy = SMALL.to_xy(*np.meshgrid(FINE, FINE, indexing="ij"))
     surface = relief.height_at(sx, sy)
     x, y = places.xy()
     away = np.hypot(sx.ravel() - x[..., None], sy.ravel() - y[..., None])
-    gouge = surface.ravel() - tips[..., None] - CUTTERS[name].profile(away)
+    gouge = surface.ravel() - tips[..., None] - every_cutter.profile(away)
     assert gouge.max() < 1e-9
 
 
@@ -82,14 +69,14 @@ def test_places_turn_from_x_towards_y():
     assert np.allclose(y, np.meshgrid(*GRID.node_axes())[1])
 
 
-def test_the_answer_does_not_depend_on_the_number_of_threads():
+def test_the_answer_does_not_depend_on_the_number_of_threads(cutters):
     terrain = Terrain.over(GRID, field("rough", np.random.default_rng(8)))
     places = Places((0.5, 5.5), 10.0, 0.02, 0.02, 300, 300)
-    many = tip_surface(terrain, CUTTERS["ball"], places)
+    many = tip_surface(terrain, cutters["ball"], places)
     threads = numba.get_num_threads()
     numba.set_num_threads(1)
     try:
-        one = tip_surface(terrain, CUTTERS["ball"], places)
+        one = tip_surface(terrain, cutters["ball"], places)
     finally:
         numba.set_num_threads(threads)
     assert np.array_equal(one, many)
