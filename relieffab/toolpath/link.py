@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.compiled import kernel
 from relieffab.machine import Cutting, Machine
+from relieffab.toolpath.order import arrange
 from relieffab.toolpath.passes import Pass, bridges
 
 Floats = NDArray[np.float64]
@@ -48,40 +48,6 @@ class Linking:
     ramp: bool = False
 
 
-@kernel
-def _nearest_order(ends, x, y, order, turned):  # type: ignore[no-untyped-def]
-    count = ends.shape[0]
-    left = np.arange(count)
-    for place in range(count):
-        best, chosen, flip = np.inf, 0, False
-        for k in range(count - place):
-            run = left[k]
-            for side in range(2):
-                dx, dy = ends[run, side, 0] - x, ends[run, side, 1] - y
-                distance = dx * dx + dy * dy
-                if distance < best:
-                    best, chosen, flip = distance, k, side == 1
-        run = left[chosen]
-        left[chosen] = left[count - place - 1]
-        order[place], turned[place] = run, flip
-        side = 0 if flip else 1
-        x, y = ends[run, side, 0], ends[run, side, 1]
-
-
-def arrange(runs: list[Floats], start: Floats) -> tuple[list[int], list[bool]]:
-    """Order runs, each next the nearest by either end.
-
-    Returns
-    -------
-    list of int, list of bool
-        Which run comes when, and whether it is cut backwards.
-    """
-    ends = np.array([[run[0, :2], run[-1, :2]] for run in runs], dtype=np.float64)
-    order, turned = np.zeros(len(runs), np.int64), np.zeros(len(runs), np.bool_)
-    _nearest_order(ends, float(start[0]), float(start[1]), order, turned)
-    return order.tolist(), turned.tolist()
-
-
 def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
     """Join the runs of all passes.
 
@@ -97,7 +63,7 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
     for part in parts:
         if not part.runs:
             continue
-        runs, ceilings = _in_order(part, moves[-1][0][-1] if moves else np.zeros(3))
+        runs, ceilings = _in_order(part, moves[-1][0][-1] if moves else np.zeros(3), linking)
         joins = _joins(part, runs, linking.reach)
         for k, run in enumerate(runs):
             if k in joins:
@@ -115,11 +81,12 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
     return points, _feeds(points, rapid, linking)
 
 
-def _in_order(part: Pass, here: Floats) -> tuple[list[Floats], list[float]]:
+def _in_order(part: Pass, here: Floats, linking: Linking) -> tuple[list[Floats], list[float]]:
     """Turn a pass's runs the way they are cut, with the stock's height at their starts."""
     if part.fixed:
         return part.runs, [float(z) for z in part.ceiling[:, 0]]
-    order, turned = arrange(part.runs, here)
+    share = linking.cutting.feed / min(linking.machine.max_rate[:2])
+    order, turned = arrange(part.runs, here, reach=linking.reach, share=share)
     pairs = list(zip(order, turned, strict=True))
     runs = [part.runs[k][::-1] if back else part.runs[k] for k, back in pairs]
     return runs, [float(part.ceiling[k, int(back)]) for k, back in pairs]

@@ -25,7 +25,7 @@ Stage = Callable[[Cutter, float], list[Pass]]
 
 NAMES = ("rough", "finish", "lines")
 
-REACH = 4.0
+REACH = 6.0
 """Ways shorter than this from cut to cut cost less than a retract, mm."""
 
 

@@ -1,6 +1,8 @@
 """Lines at one height along steep walls, and lines at even distances inside a border."""
 
+from itertools import groupby
 from math import ceil
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,8 +74,9 @@ def offsets(inside: Bools, places: Places, stepover: float) -> list[Floats]:
     Returns
     -------
     list of (k, 2) ndarray
-        X and Y, mm; of each patch the innermost first.  What is still to be cut lies
-        to their right: climb milling, with a spindle that turns clockwise.
+        X and Y, mm; each patch near where the one before ends, of each the innermost
+        line first.  What is still to be cut lies to their right: climb milling, with a
+        spindle that turns clockwise.
     """
     room = np.pad(inside, 1)
     away = distance_transform_edt(room) * places.step
@@ -87,19 +90,25 @@ def offsets(inside: Bools, places: Places, stepover: float) -> list[Floats]:
                 patch = int(patches[[low[0], high[0]]][:, [low[1], high[1]]].max())
                 found.append((patch, -k, at))
     found.sort(key=lambda line: line[:2])
-    return _nested([line for _, _, line in found])
+    return _nested([[line for _, _, line in lines] for _, lines in groupby(found, itemgetter(0))])
 
 
-def _nested(lines: list[Floats]) -> list[Floats]:
-    """Begin each closed line where it is nearest to the end of the one before."""
+def _nested(patches: list[list[Floats]]) -> list[Floats]:
+    """Begin each closed line, and each patch, where it is nearest to the end of the one before."""
     out: list[Floats] = []
-    for line in lines:
-        ring = line[:-1]
-        if out:
-            away = np.hypot(*(ring - out[-1][-1]).T)
-            ring = np.roll(ring, -int(away.argmin()), axis=0)
-        out.append(np.concatenate([ring, ring[:1]]))
+    here, left = np.zeros(2), list(patches)
+    while left:
+        patch = min(left, key=lambda lines: _away(lines[0], here).min())
+        left = [lines for lines in left if lines is not patch]
+        for line in patch:
+            ring = np.roll(line[:-1], -int(_away(line[:-1], here).argmin()), axis=0)
+            out.append(np.concatenate([ring, ring[:1]]))
+            here = ring[0]
     return out
+
+
+def _away(line: Floats, here: Floats) -> Floats:
+    return np.hypot(*(line - here).T)
 
 
 def to_panel(line: Floats, places: Places) -> Floats:

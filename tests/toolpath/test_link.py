@@ -7,7 +7,7 @@ from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.machine import Cutting, Machine
 from relieffab.toolpath.envelope import Terrain, tip_heights
-from relieffab.toolpath.link import CLEARANCE, HOP, Linking, arrange, between, link
+from relieffab.toolpath.link import CLEARANCE, HOP, Linking, between, link
 from relieffab.toolpath.passes import Pass, Work, passes
 from relieffab.toolpath.trace import SKIN, sample
 
@@ -93,11 +93,6 @@ def test_neighbouring_rows_are_joined_without_a_retract(motion):
     _, points, feed = motion
     retracts = (np.isinf(feed) & (points[:, 2] >= HOP)).sum() // 2
     assert retracts <= 10
-
-
-def test_order_goes_to_the_nearest_end():
-    runs = [np.array([[x, 0.0, 0.0], [x, 9.0, 0.0]]) for x in (0.0, 2.0, 1.0)]
-    assert arrange(runs, np.zeros(2)) == ([0, 2, 1], [False, True, False])
 
 
 def test_nothing_to_join_is_no_motion():

@@ -62,8 +62,8 @@ def test_what_can_be_carved_stays_as_it_is(cutters):
     level = np.zeros((30, 30))
     np.testing.assert_array_equal(leaves(level, PITCH, cutters["ball"]), level)
     x = PITCH * np.arange(-30, 31)
-    bowl = np.minimum(3.0 - np.sqrt(25.0 - x**2 - x[:, None] ** 2 / 2), 0.0)
-    assert bowl.min() < -1.5
+    bowl = np.minimum(4.2 - np.sqrt(25.0 - x**2 - x[:, None] ** 2), 0.0)
+    assert bowl.min() < -0.7
     assert carvable(bowl, PITCH, partial(leaves, cutter=cutters["ball"])) is bowl
 
 
