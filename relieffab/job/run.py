@@ -40,10 +40,10 @@ def _timed(report: Report, stage: str, progress: Progress) -> Iterator[None]:
 
 
 @contextmanager
-def _reported(report: Report, folder: Path) -> Iterator[None]:
-    """Write the report once all else went well."""
+def _reported(report: Report, folder: Path, kept: Path | None = None) -> Iterator[None]:
+    """Write the report once all else went well; `kept` has files of earlier stages."""
     yield
-    write_report(report, folder)
+    write_report(report, folder, kept=kept)
 
 
 def model_of(job: Job) -> tuple[Mesh, Path | None]:
@@ -217,7 +217,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
-        _reported(report, scratch),
+        _reported(report, scratch, folder),
         stock_files(job, scratch) as (drafting, report["stock"]),
     ):
         _carve(relief, drafting, job, report, scratch, progress)
@@ -231,7 +231,7 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     relief = read_relief(folder / "relief.tiff")
     strokes = drawn.read_strokes(folder)
     report["settings"] = start_report(settings)["settings"]
-    with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch):
+    with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
             planned = chain.plan_paths(relief, strokes, job, progress)
         _prove(planned, relief, job, report, scratch, progress)
@@ -245,7 +245,7 @@ def add_template(settings: Settings, folder: Path, *, progress: Progress = silen
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, TEMPLATE) as scratch,
-        _reported(report, scratch),
+        _reported(report, scratch, folder),
         _timed(report, "template", progress),
     ):
         name = report["model"]["name"]

@@ -9,7 +9,7 @@ from relieffab.picture.stone import LIGHT, hillshade
 from relieffab.relief.model import Relief
 
 GAP = 12
-LINE = 26
+LINE = 26  # pixels of the line above the pictures, at least
 
 
 def predicted_look(
@@ -32,11 +32,12 @@ def predicted_look(
     """
     left, right = (smaller(hillshade(one, light), width) for one in (wanted, carved))
     size = left.shape[1], left.shape[0]
-    page = Image.new("RGB", (2 * size[0] + 3 * GAP, size[1] + GAP + LINE), "white")
-    draw, letters = ImageDraw.Draw(page), ImageFont.load_default(size=15)
+    line = max(LINE, size[0] // 18)
+    page = Image.new("RGB", (2 * size[0] + 3 * GAP, size[1] + GAP + line), "white")
+    draw, letters = ImageDraw.Draw(page), ImageFont.load_default(size=round(0.6 * line))
     for k, (image, word) in enumerate(((left, "wanted"), (right, "as the programs leave it"))):
         x = GAP + k * (size[0] + GAP)
         picture = Image.fromarray(image)
-        page.paste(picture if picture.size == size else picture.resize(size), (x, LINE))
-        draw.text((x + size[0] / 2, LINE / 2), word, "black", letters, anchor="mm")
+        page.paste(picture if picture.size == size else picture.resize(size), (x, line))
+        draw.text((x + size[0] / 2, line / 2), word, "black", letters, anchor="mm")
     return np.asarray(page)
