@@ -95,10 +95,10 @@ def _carve(
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
-            small, report["picture"] = chain.write_picture(relief, panel, folder)
+            small, report["picture"] = chain.write_picture(relief, panel, job, folder)
         if panel is None:
             file = folder / f"{job.solid}.png"
-            small, facts["picture"] = chain.write_solid_picture(solid, relief, file)
+            small, facts["picture"] = chain.write_solid_picture(solid, relief, job, file)
     with _timed(report, "export", progress):
         name = report["model"]["name"]
         part = chain.write_solid(solid, job, folder, name=name, picture=small)
@@ -127,7 +127,7 @@ def _prove(
         report["verification"] = {
             **proof.verification_part(verdict, relief),
             "certificate": certificate.certificate(report, folder),
-            "pictures": proof.write_pictures(verdict, relief, folder),
+            "pictures": proof.write_pictures(verdict, relief, job, folder),
         }
     if not verdict.ok:
         raise FindingsError(
@@ -200,9 +200,10 @@ def make_relief(
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
-        _, relief = _solve(job_of(settings), report, scratch, progress)
+        job = job_of(settings)
+        _, relief = _solve(job, report, scratch, progress)
         with _timed(report, "picture", progress):
-            _, report["picture"] = chain.write_picture(relief, None, scratch)
+            _, report["picture"] = chain.write_picture(relief, None, job, scratch)
     return report
 
 
