@@ -109,7 +109,7 @@ def _solid(name: str, part: Mapping[str, Any], folder: Path) -> None:
 
 
 def _programs(report: Mapping[str, Any], folder: Path) -> None:
-    from relieffab.job.page import clock
+    from relieffab.job.sheet.words import clock
 
     placing = ""
     for part in report.get("programs", []):

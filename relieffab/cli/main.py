@@ -14,6 +14,7 @@ from relieffab.cli import comparison, composing, first, stages
 from relieffab.cli.interrupt import listen
 from relieffab.cli.machines import machines
 from relieffab.cli.send import send
+from relieffab.cli.showing import show
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -37,6 +38,7 @@ for command in (
     composing.compose,
     comparison.compare,
     send,
+    show,
 ):
     app.command(command)
 app.command(machines)

@@ -15,10 +15,14 @@ from relieffab.job.settings import Chosen, resolve
 from relieffab.job.table import TABLE, Setting
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
-PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
+PICTURE_SETTINGS = ("light", "texture")
+PANEL_SETTINGS = (
+    *("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance"), *PICTURE_SETTINGS,
+)  # fmt: skip
 TOOLPATH_SETTINGS = (
     *("machine", "material", "rough", "finish", "lines", "stepover", "scallop", "rows", "milling"),
     *("units", "work_zero", "work_zero_z", "positions", "overlap", "plate", "cutter_change"),
+    *PICTURE_SETTINGS,
 )
 TEMPLATE_SETTINGS = ("paper",)
 STOCK_SETTINGS = (
@@ -50,7 +54,7 @@ def _flag(setting: Setting) -> tuple[str, Any, Any]:
 Options = _flags("Options", [n for n in TABLE if n not in ("model", *TEMPLATE_SETTINGS)])
 PanelOptions = _flags("PanelOptions", PANEL_SETTINGS)
 ToolpathOptions = _flags("ToolpathOptions", TOOLPATH_SETTINGS)
-ComposeOptions = _flags("ComposeOptions", ("size", "thickness", *STOCK_SETTINGS))
+ComposeOptions = _flags("ComposeOptions", ("size", "thickness", *STOCK_SETTINGS, *PICTURE_SETTINGS))
 TemplateOptions = _flags("TemplateOptions", TEMPLATE_SETTINGS)
 CompareOptions = _flags("CompareOptions", [n for n in TABLE if n not in ("model", *_NOT_COMPARED)])
 

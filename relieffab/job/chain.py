@@ -24,6 +24,7 @@ from relieffab.layers.lines.svg import strokes_to_svg
 from relieffab.layers.make import layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
+from relieffab.layers.shading import light_at
 from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
@@ -283,14 +284,18 @@ def plan_paths(
     return cut
 
 
-def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> tuple[bytes, Part]:
+def write_picture(
+    relief: Relief, panel: Panel | None, job: Job, folder: Path
+) -> tuple[bytes, Part]:
     """Write preview.png; return it small, and how it was made."""
-    return _kept(*panel_picture(relief, panel), folder / "preview.png")
+    picture = panel_picture(relief, panel, light=light_at(*job.light), texture=job.texture)
+    return _kept(*picture, folder / "preview.png")
 
 
-def write_solid_picture(solid: Panel, relief: Relief, file: Path) -> tuple[bytes, Part]:
+def write_solid_picture(solid: Panel, relief: Relief, job: Job, file: Path) -> tuple[bytes, Part]:
     """Write the picture of a plaque or a mould; return it small, and how it was made."""
-    return _kept(*solid_picture(solid, relief.grid.pitch), file)
+    pitch, light = relief.grid.pitch, light_at(*job.light)
+    return _kept(*solid_picture(solid, pitch, light=light, texture=job.texture), file)
 
 
 def _kept(image: NDArray[np.uint8], method: str, file: Path) -> tuple[bytes, Part]:

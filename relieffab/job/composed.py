@@ -115,4 +115,4 @@ def _write(
     chain.write_drawing(strokes, job, folder)
     report["relief"] = chain.relief_part(relief)
     report["relief"]["sha256"] = chain.write_relief(relief, folder)
-    _, report["picture"] = chain.write_picture(relief, None, folder)
+    _, report["picture"] = chain.write_picture(relief, None, job, folder)

@@ -9,12 +9,15 @@ import numpy as np
 
 from relieffab.cutter import Cutter
 from relieffab.errors import FindingsError, InputError
+from relieffab.gcode.program import Program
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.verify import Verification, verify
 from relieffab.grid import Grid
 from relieffab.job.certificate import RELIEF, file_hash, program_names
 from relieffab.job.report import read_report
+from relieffab.job.settings import Job
+from relieffab.layers.shading import light_at
 from relieffab.machine import Machine, Material, Use
 from relieffab.picture import deviation_map, png8, predicted_look
 from relieffab.progress import Progress, silent
@@ -39,12 +42,67 @@ def judge(
     InputError
         If a program is missing, or the report does not hold what it takes.
     """
+    made = made_for(report, folder, relief.depth)
+    programs = [made.read(folder / name) for name in program_names(report)]
+    return verify(
+        programs, made.cutters, relief, made.setup, positions=made.positions, progress=progress
+    )
+
+
+@dataclass(frozen=True)
+class MadeFor:
+    """What the programs of a job were made for.
+
+    Parameters
+    ----------
+    setup : Setup
+    cutters : tuple of Cutter
+        One a program; a program that changes cutters counts once for each.
+    positions : tuple of Position or None
+        As many.
+    """
+
+    setup: Setup
+    cutters: tuple[Cutter, ...]
+    positions: tuple[Position | None, ...]
+
+    def read(self, path: Path) -> Program:
+        """Read one of the programs.
+
+        Raises
+        ------
+        InputError
+            If it is missing, or no program.
+        """
+        if not path.is_file():
+            raise InputError("a program of the job is missing", where=str(path))
+        text = path.read_text(encoding="latin-1")
+        return read_program(text, name=path.name, dialect=self.setup.post.dialect)
+
+
+def made_for(report: Mapping[str, Any], folder: Path, depth: float) -> MadeFor:
+    """Read back what the programs of a report were made for.
+
+    Parameters
+    ----------
+    report : mapping
+    folder : Path
+        Where it lies.
+    depth : float
+        Of the relief, mm.
+
+    Raises
+    ------
+    InputError
+        If the report does not hold it.
+    """
     try:
-        setup = _setup(report, relief.depth)
-        cutters = [Cutter(**part["cutter"]) for part in report["programs"]]
         places = [part.get("position") for part in report["programs"]]
-        positions = [Position.of(place) if place else None for place in places]
-        files = [folder / name for name in program_names(report)]
+        return MadeFor(
+            _setup(report, depth),
+            tuple(Cutter(**part["cutter"]) for part in report["programs"]),
+            tuple(Position.of(place) if place else None for place in places),
+        )
     except (KeyError, TypeError, ValueError) as fault:
         raise InputError(
             "the report does not say what its programs were made for",
@@ -53,13 +111,6 @@ def judge(
             where=str(folder / "report.json"),
             hint="relieffab toolpath writes them again",
         ) from fault
-    programs = []
-    for path in files:
-        if not path.is_file():
-            raise InputError("a program of the job is missing", where=str(path))
-        text = path.read_text(encoding="latin-1")
-        programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
-    return verify(programs, cutters, relief, setup, positions=positions, progress=progress)
 
 
 def _setup(report: Mapping[str, Any], depth: float) -> Setup:
@@ -147,11 +198,12 @@ def verification_part(verdict: Verification, relief: Relief, more: Sequence[str]
     }
 
 
-def write_pictures(verdict: Verification, relief: Relief, folder: Path) -> Part:
+def write_pictures(verdict: Verification, relief: Relief, job: Job, folder: Path) -> Part:
     """Write the map of what is left and the predicted look; give their names."""
     colours = deviation_map(verdict.deviation, verdict.figure, verdict.tolerance_mm)
     (folder / DEVIATION).write_bytes(png8(colours))
-    look = predicted_look(relief, carved_relief(verdict, relief))
+    carved, light = carved_relief(verdict, relief), light_at(*job.light)
+    look = predicted_look(relief, carved, light, texture=job.texture)
     (folder / LOOK).write_bytes(png8(look))
     return {"deviation": DEVIATION, "look": LOOK}
 

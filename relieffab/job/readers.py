@@ -1,7 +1,7 @@
 """From what a person types to the value of a setting; each raises InputError."""
 
 from collections.abc import Callable
-from typing import Any, get_args
+from typing import Any, Literal, get_args
 
 from relieffab import units
 from relieffab.errors import InputError, suggest
@@ -174,3 +174,33 @@ def up(text: Any) -> str:
 def paper(text: Any) -> str:
     """Read the name of a paper size."""
     return one_of(*PAPERS)(str(text).lower())
+
+
+def texture(text: Any) -> Literal["stone", "wood"]:
+    """Read what a relief is pictured in."""
+    return one_of("stone", "wood")(text)  # type: ignore[return-value]
+
+
+def light(text: Any) -> tuple[float, float]:
+    """Read where the light of a picture comes from, as 315,32.5: azimuth, elevation, degrees.
+
+    Examples
+    --------
+    >>> light("-45deg, 30deg")
+    (-45.0, 30.0)
+    """
+    words = str(text).split(",")
+    if len(words) != 2:
+        raise InputError(
+            "the light is not two angles",
+            expected="azimuth and elevation, as 315,32.5",
+            found=str(text),
+        )
+    azimuth, elevation = (units.angle(word.strip()) for word in words)
+    if not 0 < elevation <= 90:
+        raise InputError(
+            "the light does not stand above the panel",
+            expected="an elevation over 0, at most 90 degrees",
+            found=f"{elevation:g}",
+        )
+    return azimuth, elevation

@@ -8,7 +8,6 @@ from typing import Any
 from relieffab import __version__
 from relieffab.errors import InputError
 from relieffab.job.folder import REPORT, SOLIDS
-from relieffab.job.page import page
 from relieffab.job.settings import Chosen
 
 SCHEMA = 1
@@ -45,12 +44,26 @@ def start_report(chosen: Mapping[str, Chosen]) -> Report:
     return {"schema": SCHEMA, "version": __version__, "settings": settings, "timings": {}}
 
 
-def write_report(report: Report, folder: Path) -> None:
-    """Write report.json and report.html."""
+def write_report(report: Report, folder: Path, *, kept: Path | None = None) -> None:
+    """Write report.json and report.html.
+
+    Parameters
+    ----------
+    report : dict
+    folder : Path
+        Where they go, beside the files that are new.
+    kept : Path, optional
+        Where files of earlier stages lie, whose pictures belong to the page, too.
+    """
+    # What lays the page out is of no use to those who only read reports.
+    from relieffab.job.sheet.page import page
+
     ordered = {key: report[key] for key in KEYS if key in report}
     text = json.dumps(ordered, indent=2, ensure_ascii=False, allow_nan=False)
     (folder / REPORT).write_text(text + "\n", encoding="utf-8")
-    (folder / "report.html").write_text(page(ordered), encoding="utf-8")
+    (folder / "report.html").write_text(
+        page(ordered, [folder, *([kept] if kept else [])]), encoding="utf-8"
+    )
 
 
 def read_report(folder: Path) -> Report:

@@ -40,10 +40,10 @@ def _timed(report: Report, stage: str, progress: Progress) -> Iterator[None]:
 
 
 @contextmanager
-def _reported(report: Report, folder: Path) -> Iterator[None]:
-    """Write the report once all else went well."""
+def _reported(report: Report, folder: Path, kept: Path | None = None) -> Iterator[None]:
+    """Write the report once all else went well; `kept` has files of earlier stages."""
     yield
-    write_report(report, folder)
+    write_report(report, folder, kept=kept)
 
 
 def model_of(job: Job) -> tuple[Mesh, Path | None]:
@@ -95,10 +95,10 @@ def _carve(
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
-            small, report["picture"] = chain.write_picture(relief, panel, folder)
+            small, report["picture"] = chain.write_picture(relief, panel, job, folder)
         if panel is None:
             file = folder / f"{job.solid}.png"
-            small, facts["picture"] = chain.write_solid_picture(solid, relief, file)
+            small, facts["picture"] = chain.write_solid_picture(solid, relief, job, file)
     with _timed(report, "export", progress):
         name = report["model"]["name"]
         part = chain.write_solid(solid, job, folder, name=name, picture=small)
@@ -127,7 +127,7 @@ def _prove(
         report["verification"] = {
             **proof.verification_part(verdict, relief),
             "certificate": certificate.certificate(report, folder),
-            "pictures": proof.write_pictures(verdict, relief, folder),
+            "pictures": proof.write_pictures(verdict, relief, job, folder),
         }
     if not verdict.ok:
         raise FindingsError(
@@ -200,9 +200,10 @@ def make_relief(
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
-        _, relief = _solve(job_of(settings), report, scratch, progress)
+        job = job_of(settings)
+        _, relief = _solve(job, report, scratch, progress)
         with _timed(report, "picture", progress):
-            _, report["picture"] = chain.write_picture(relief, None, scratch)
+            _, report["picture"] = chain.write_picture(relief, None, job, scratch)
     return report
 
 
@@ -217,7 +218,7 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
-        _reported(report, scratch),
+        _reported(report, scratch, folder),
         stock_files(job, scratch) as (drafting, report["stock"]),
     ):
         _carve(relief, drafting, job, report, scratch, progress)
@@ -231,7 +232,7 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     relief = read_relief(folder / "relief.tiff")
     strokes = drawn.read_strokes(folder)
     report["settings"] = start_report(settings)["settings"]
-    with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch):
+    with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
             planned = chain.plan_paths(relief, strokes, job, progress)
         _prove(planned, relief, job, report, scratch, progress)
@@ -245,7 +246,7 @@ def add_template(settings: Settings, folder: Path, *, progress: Progress = silen
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, TEMPLATE) as scratch,
-        _reported(report, scratch),
+        _reported(report, scratch, folder),
         _timed(report, "template", progress),
     ):
         name = report["model"]["name"]

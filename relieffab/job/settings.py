@@ -66,6 +66,8 @@ class Job:
     plate: float | None
     cutter_change: str
     mesh_tolerance: float
+    light: tuple[float, float]
+    texture: Literal["stone", "wood"]
     solid: str
     draft: float
     bed: tuple[float, float] | None

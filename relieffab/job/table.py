@@ -149,6 +149,13 @@ SETTINGS = (
     ),
     Setting("mesh_tolerance", readers.positive, "0.02mm", "largest error of the panel's triangles"),
     Setting(
+        "light",
+        readers.light,
+        "315,32.5",
+        "of the pictures: degrees clockwise from the panel's far side, and above it",
+    ),
+    Setting("texture", readers.texture, "stone", "of the pictures: stone or wood"),
+    Setting(
         "solid",
         readers.one_of("panel", "plaque", "mould"),
         "panel",

@@ -132,3 +132,17 @@ def pixel_normals(
     out /= np.where(length > 0, length, 1.0)
     out[~(length[..., 0] > 0)] = (0.0, 0.0, 1.0)
     return out
+
+
+def light_at(azimuth: float, elevation: float) -> Floats:
+    """Point a unit vector towards a light.
+
+    Parameters
+    ----------
+    azimuth : float
+        From the panel's far side towards its right, degrees.
+    elevation : float
+        Above the panel, degrees.
+    """
+    a, e = np.radians(azimuth), np.radians(elevation)
+    return np.array([np.sin(a) * np.cos(e), np.cos(a) * np.cos(e), np.sin(e)])

@@ -11,7 +11,7 @@ Singles = NDArray[np.float32]
 LOW, EVEN, HIGH = (32, 64, 200), (246, 244, 238), (200, 60, 10)
 """Too much gone, as wanted, left standing: red, green, blue."""
 OUTSIDE = 0.82  # of the brightness, off the figure
-BAR = 40  # pixels of the legend's height
+BAR, SHARE = 40, 1 / 24  # height of the legend: at least so many pixels, and of its width
 WIDTH = 1200
 
 
@@ -65,16 +65,17 @@ def _furthest(field: Singles, step: int) -> Singles:
 
 
 def _legend(width: int, limit: float) -> NDArray[np.uint8]:
-    page = Image.new("RGB", (width, BAR), "white")
+    height = max(BAR, round(SHARE * width))
+    page = Image.new("RGB", (width, height), "white")
     draw = ImageDraw.Draw(page)
-    letters = ImageFont.load_default(size=13)
+    letters = ImageFont.load_default(size=max(13, round(0.42 * height)))
     left, right = width // 10, width - width // 10
     for x in range(left, right):
         share = 2 * (x - left) / (right - 1 - left) - 1
         end = np.asarray(LOW if share < 0 else HIGH)
         colour = np.rint(np.asarray(EVEN) + abs(share) * (end - EVEN)).astype(int)
-        draw.line([(x, 4), (x, 16)], fill=tuple(colour.tolist()))
+        draw.line([(x, 0.1 * height), (x, 0.4 * height)], fill=tuple(colour.tolist()))
     words = f"{limit:g} mm too low", "as wanted", f"{limit:g} mm too high"
     for x, text in zip((left, width // 2, right), words, strict=True):
-        draw.text((x, 28), text, "black", letters, anchor="mm")
+        draw.text((x, 0.72 * height), text, "black", letters, anchor="mm")
     return np.asarray(page)

@@ -9,6 +9,7 @@ from relieffab.grid import Grid
 from relieffab.picture.above import heights_above, solid_heights
 from relieffab.picture.render import OpenGLMissingError, TriangleMesh, render_panel
 from relieffab.picture.stone import LIGHT, hillshade, shade
+from relieffab.picture.texture import Texture
 from relieffab.relief.model import Relief
 
 Floats = NDArray[np.float64]
@@ -21,6 +22,7 @@ def panel_picture(
     *,
     width: int = 1600,
     light: ArrayLike = LIGHT,
+    texture: Texture = "stone",
 ) -> tuple[NDArray[np.uint8], Method]:
     """Picture a relief for presentation.
 
@@ -33,6 +35,8 @@ def panel_picture(
         Of the picture in perspective, pixels.
     light : (3,) array_like
         Towards the key light.
+    texture : {'stone', 'wood'}
+        What it is carved in.
 
     Returns
     -------
@@ -42,12 +46,18 @@ def panel_picture(
         straight on, where there is no panel or no OpenGL.
     """
     if panel is None:
-        return hillshade(relief, light), "hillshade"
-    return _drawn(panel, relief.grid, heights_above(relief, panel), width, light)
+        return hillshade(relief, light, texture=texture), "hillshade"
+    heights = heights_above(relief, panel)
+    return _drawn(panel, relief.grid, heights, width, light, texture)
 
 
 def solid_picture(
-    solid: TriangleMesh, pitch: float, *, width: int = 1600, light: ArrayLike = LIGHT
+    solid: TriangleMesh,
+    pitch: float,
+    *,
+    width: int = 1600,
+    light: ArrayLike = LIGHT,
+    texture: Texture = "stone",
 ) -> tuple[NDArray[np.uint8], Method]:
     """Picture any solid that lies on its back, a plaque or a mould.
 
@@ -60,6 +70,8 @@ def solid_picture(
         Of the picture in perspective, pixels.
     light : (3,) array_like
         Towards the key light.
+    texture : {'stone', 'wood'}
+        What it is carved in.
 
     Returns
     -------
@@ -67,15 +79,21 @@ def solid_picture(
     method : str
         As `panel_picture`.
     """
-    return _drawn(solid, *solid_heights(solid, pitch), width, light)
+    return _drawn(solid, *solid_heights(solid, pitch), width, light, texture)
 
 
 def _drawn(
-    solid: TriangleMesh, grid: Grid, heights: Floats, width: int, light: ArrayLike
+    solid: TriangleMesh,
+    grid: Grid,
+    heights: Floats,
+    width: int,
+    light: ArrayLike,
+    texture: Texture,
 ) -> tuple[NDArray[np.uint8], Method]:
     """Draw a solid whose heights seen from above are known at a grid's nodes, mm."""
-    face = shade(heights, grid.pitch, light)
+    face = shade(heights, grid.pitch, light, texture=texture)
     try:
-        return render_panel(solid, face, grid, width=width, light=light), "pyrender"
+        image = render_panel(solid, face, grid, width=width, light=light, texture=texture)
     except OpenGLMissingError:
         return face, "hillshade"
+    return image, "pyrender"

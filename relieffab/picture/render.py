@@ -15,7 +15,8 @@ from scipy import ndimage
 from relieffab.errors import RelieffabError
 from relieffab.grid import Grid
 from relieffab.layers.raster import rasterise
-from relieffab.picture.stone import BOUNCE, GAMMA, KEY, LIGHT, SKY, STONE, unit_light
+from relieffab.picture.stone import BOUNCE, GAMMA, KEY, LIGHT, SKY, unit_light
+from relieffab.picture.texture import Texture, plain_colour
 
 Floats = NDArray[np.float64]
 
@@ -140,15 +141,15 @@ def _face(panel: TriangleMesh, faces: NDArray[np.integer], image: Any, grid: Gri
     )
 
 
-def _sides(panel: TriangleMesh, faces: NDArray[np.integer], light: Floats) -> Any:
-    """Colour the slab's sides, each in one shade of the stone."""
+def _sides(panel: TriangleMesh, faces: NDArray[np.integer], light: Floats, texture: Texture) -> Any:
+    """Colour the slab's sides, each in one shade."""
     from pyrender import MetallicRoughnessMaterial, Primitive
 
     corners = panel.vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     grey = KEY * np.maximum(normals @ light, 0) + SKY * (1 + normals[:, 2]) / 2 + 2 * BOUNCE
-    colours = np.clip(grey[:, None] * np.asarray(STONE), 0, 1) ** (1 / GAMMA)
+    colours = np.clip(grey[:, None] * plain_colour(texture), 0, 1) ** (1 / GAMMA)
     alpha = np.ones((len(colours), 1))
     return Primitive(
         positions=corners.reshape(-1, 3).astype(np.float32),
@@ -164,7 +165,7 @@ def _shadow(panel: TriangleMesh, x: Floats, y: Floats, thick: float, light: Floa
     plan = rasterise(panel.vertices, panel.faces, grid).mask.astype(float)[::-1]
     shadow = np.ones_like(plan)
     # It is swept from the slab's foot to its upper edge's.
-    for share in np.linspace(0, 1, 8):
+    for share in np.linspace(0, 1, 16):
         dx, dy = -share * thick * light[:2] / light[2] / step
         soft = ndimage.gaussian_filter(plan, thick * (0.06 + 0.18 * share) / step)
         shadow = np.minimum(shadow, 1 - 0.62 * ndimage.shift(soft, (dy, dx), order=1))
@@ -201,6 +202,7 @@ def render_panel(
     *,
     width: int = 1600,
     light: ArrayLike = LIGHT,
+    texture: Texture = "stone",
 ) -> NDArray[np.uint8]:
     """Draw a panel in perspective.
 
@@ -216,6 +218,8 @@ def render_panel(
         Of the picture, pixels; its height is three quarters of that.
     light : (3,) array_like
         Towards the key light; the same as the face's.
+    texture : {'stone', 'wood'}
+        The face's, for the slab's sides.
 
     Returns
     -------
@@ -238,7 +242,7 @@ def render_panel(
         scene = Scene(bg_color=(*TABLE, 1.0))
         parts = [
             _face(panel, panel.faces[~side], face, grid),
-            _sides(panel, panel.faces[side], towards),
+            _sides(panel, panel.faces[side], towards, texture),
             _table(panel, low, high, towards),
         ]
         for part in parts:

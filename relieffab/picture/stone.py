@@ -1,18 +1,16 @@
-"""A relief as carved stone under a raking light, from its height field alone."""
+"""A relief as carved stone or wood under a raking light, from its height field alone."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from relieffab.errors import InputError
+from relieffab.picture.texture import Texture, colour_of
 from relieffab.relief.model import Relief, pixel_slopes
 
 Floats = NDArray[np.float64]
-Colour = tuple[float, float, float]
 
 # From the upper left, as pictures of reliefs are lit by custom; 32 degrees high.
 LIGHT = (-1.0, 1.0, 0.9)
-# Linear colour of the stone, red, green, blue: a warm limestone.
-STONE = (0.82, 0.67, 0.47)
 KEY, SKY, BOUNCE = 1.1, 0.2, 0.12
 GAMMA = 2.2
 
@@ -178,9 +176,9 @@ def _even_walls(linear: Floats, upright: Floats) -> Floats:
 
 
 def shade(
-    heights: Floats, pitch: float, light: ArrayLike = LIGHT, *, stone: Colour = STONE
+    heights: Floats, pitch: float, light: ArrayLike = LIGHT, *, texture: Texture = "stone"
 ) -> NDArray[np.uint8]:
-    """Picture a surface in stone: Lambert, cast shadow, and the sky's soft light.
+    """Picture a surface: Lambert, cast shadow, and the sky's soft light.
 
     Parameters
     ----------
@@ -190,8 +188,8 @@ def shade(
         Side of a pixel, mm.
     light : (3,) array_like
         Towards the key light.
-    stone : tuple of float
-        Linear colour of the stone, red, green and blue, 0 to 1.
+    texture : {'stone', 'wood'}
+        What it is carved in.
 
     Returns
     -------
@@ -202,8 +200,8 @@ def shade(
     normals, centres = pixel_normals(heights, pitch), _centres(heights - heights.max(initial=0.0))
     key = np.maximum(normals @ towards, 0.0) * lit(centres, pitch, towards)
     open_sky = sky(centres, pitch)
-    colour = np.asarray(stone)
-    # What the sky does not light, the stone's own walls do, in the stone's own colour.
+    colour = colour_of(texture, centres, pitch)
+    # What the sky does not light, the walls do, in their own colour.
     grey = KEY * key + SKY * open_sky
     glow = BOUNCE * (1 - open_sky)
     linear = (grey[..., None] + glow[..., None] * colour) * colour
@@ -212,7 +210,7 @@ def shade(
 
 
 def hillshade(
-    relief: Relief, light: ArrayLike = LIGHT, *, stone: Colour = STONE
+    relief: Relief, light: ArrayLike = LIGHT, *, texture: Texture = "stone"
 ) -> NDArray[np.uint8]:
-    """Picture a relief in stone, as `shade` does."""
-    return shade(relief.heights, relief.grid.pitch, light, stone=stone)
+    """Picture a relief as `shade` does."""
+    return shade(relief.heights, relief.grid.pitch, light, texture=texture)

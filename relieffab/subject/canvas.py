@@ -17,9 +17,9 @@ UPRIGHT = 1.4
 
 
 class Canvas:
-    """Signed distances on a grid over one half of a symmetrical slab standing on Z = 0.
+    """Signed distances on a grid over a slab standing on Z = 0.
 
-    Only X >= 0 is drawn; the mesh is mirrored.  Each part is worked out within its
+    Of a symmetrical one only X >= 0 is drawn; the mesh is mirrored.  Each part is worked out within its
     own bounding box, so the cost follows what is drawn and not the slab's size.
 
     Parameters
@@ -28,21 +28,25 @@ class Canvas:
         Full X, full Y (both centred on 0) and height, mm.
     cell : float
         Side of a grid cell, mm.
+    mirrored : bool
+        Whether it is symmetrical about X = 0.
     """
 
-    def __init__(self, size: tuple[float, float, float], cell: float) -> None:
+    def __init__(
+        self, size: tuple[float, float, float], cell: float, *, mirrored: bool = True
+    ) -> None:
         if not 0.1 <= cell <= 5.0:
             raise InputError(
                 "the grid's cell is out of range", expected="0.1 to 5 mm", found=f"{cell} mm"
             )
-        self.cell = cell
+        self.cell, self._mirrored = cell, mirrored
         across, along, up = (
             int(np.ceil(length / side))
             for length, side in zip(size, (cell, cell, cell * UPRIGHT), strict=True)
         )
         half, rows = across // 2 + 2, along // 2 + 2
         self._axes = (
-            np.arange(half + 1, dtype=np.float32) * np.float32(cell),
+            np.arange(0 if mirrored else -half, half + 1, dtype=np.float32) * np.float32(cell),
             np.arange(-rows, rows + 1, dtype=np.float32) * np.float32(cell),
             np.arange(-1, up + 2, dtype=np.float32) * np.float32(cell * UPRIGHT),
         )
@@ -79,7 +83,7 @@ class Canvas:
         self._field[box] = union(self._field[box], distance.astype(np.float32, copy=False), blend)
 
     def mesh(self) -> Mesh:
-        """Triangulate the surface, cut flat at Z = 0: closed, outward, both halves.
+        """Triangulate the surface, cut flat at Z = 0: closed, outward, whole.
 
         Marching cubes (Lewiner 2003, as scikit-image has it).  Distances are kept
         off zero at the nodes, so that no triangle collapses.
@@ -93,7 +97,9 @@ class Canvas:
         """
         from skimage.measure import marching_cubes
 
-        field = np.concatenate([self._field[:0:-1], self._field])
+        field = self._field
+        if self._mirrored:
+            field = np.concatenate([field[:0:-1], field])
         for axis in range(3):
             field = _soften(field, axis)
         field = np.maximum(field, -self._axes[2])

@@ -1,9 +1,6 @@
-import json
-
 import pytest
 
 from relieffab.errors import InputError
-from relieffab.job.page import page
 from relieffab.job.report import read_report, start_report, write_report
 from relieffab.job.settings import resolve
 
@@ -32,10 +29,3 @@ def test_reports_of_others_are_refused(tmp_path, text, words):
     (tmp_path / "report.json").write_text(text)
     with pytest.raises(InputError, match=words):
         read_report(tmp_path)
-
-
-def test_the_page_escapes_what_it_is_told():
-    report = json.loads(json.dumps(start_report(resolve([]))))
-    text = page({**report, "model": {"name": "<script>", "notes": ["a < b"]}})
-    assert "<script>" not in text
-    assert "a &lt; b" in text

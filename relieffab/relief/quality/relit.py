@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from relieffab.layers.shading import lambert
+from relieffab.layers.shading import lambert, light_at
 from relieffab.relief.quality.pair import Pair, correlation, normals_of
 
 Floats = NDArray[np.float64]
@@ -45,20 +45,6 @@ class Relit:
     oblique_ssim: float
     inside_ncc: float
     inside_contrast: float
-
-
-def light_at(azimuth: float, elevation: float) -> Floats:
-    """Point a unit vector towards a light.
-
-    Parameters
-    ----------
-    azimuth : float
-        From the panel's far side towards its right, degrees.
-    elevation : float
-        Above the panel, degrees.
-    """
-    a, e = np.radians(azimuth), np.radians(elevation)
-    return np.array([np.sin(a) * np.cos(e), np.cos(a) * np.cos(e), np.sin(e)])
 
 
 LIGHTS = np.stack([light_at(0, 90), light_at(-45, 45), light_at(45, 45)])

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.layers.shading import lambert
+from relieffab.layers.shading import lambert, light_at
 from relieffab.relief.quality.drawn import Drawn, drawn
 from relieffab.relief.quality.grooves import beside, groove_depths
 from relieffab.relief.quality.pair import Pair, normals_of
-from relieffab.relief.quality.relit import light_at
 
 Floats = NDArray[np.float64]
 

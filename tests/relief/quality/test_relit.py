@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from relieffab.relief.quality.relit import LIGHTS, light_at, relit, similarity
+from relieffab.layers.shading import light_at
+from relieffab.relief.quality.relit import LIGHTS, relit, similarity
 
 
 def test_lights_stand_where_they_are_said_to():

@@ -1,0 +1,1 @@
+"""Any product of the toolkit as something to look at."""

@@ -1,0 +1,119 @@
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from relieffab.job.report import start_report
+from relieffab.job.settings import resolve
+from relieffab.job.sheet.page import page
+from relieffab.picture import png8
+
+VOID = {"meta", "img", "input", "image", "path", "br"}
+
+
+class Tags(HTMLParser):
+    """Every element that is opened is closed again, in order."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.seen, self.links = [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append(tag)
+        self.links += [value for name, value in attrs if name in ("src", "href")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag not in VOID:
+            assert self.open.pop() == tag
+
+
+def parsed(text):
+    tags = Tags()
+    tags.feed(text)
+    assert tags.open == []
+    return tags
+
+
+def test_a_whole_job_has_all_that_the_machine_asks(report):
+    text = page(report)
+    tags = parsed(text)
+    assert tags.seen.count("article") == 2
+    assert tags.seen.count("svg") == 2
+    for words in (
+        "Setup sheet",
+        "1 h 00 min",
+        "<b>12 mm</b> or more out of the collet",
+        "1,000 mm/min",
+        "Unverified",
+        "feeds are a careful guess",
+        f"{1:064x}  01-rough.nc",
+        f"{'a' * 64}  relief.tiff",
+        "make </span>",
+        "00-outline.nc run",
+    ):
+        assert words in text
+    assert text.index("careful guess: start slower") < text.index("The stock and work zero")
+
+
+def test_it_asks_for_nothing_outside_itself(tmp_path, report):
+    report["picture"] = {"file": "preview.png", "method": "hillshade"}
+    (tmp_path / "preview.png").write_bytes(png8(np.zeros((4, 4), np.uint8)))
+    links = parsed(page(report, [tmp_path])).links
+    assert len(links) == 1
+    assert all(link.startswith("data:image/") for link in links)
+    assert "url(" not in page(report)
+
+
+@pytest.mark.parametrize("name", ["<script>alert(1)</script>", '"><img src=x onerror=y>', "a&b"])
+def test_what_people_typed_stays_text(name, made):
+    report = made(model=name)
+    report["model"]["name"] = name
+    report["model"]["notes"] = [name]
+    report["programs"][0]["cutter"]["title"] = name
+    report["reliefs"] = [{"model": {"name": name}, "place_mm": [0, 0]}]
+    text = page(report)
+    assert name not in text
+    assert not {"script", "img"} & set(parsed(text).seen)
+
+
+def test_a_verdict_against_the_programs_cannot_be_missed(report):
+    report["verification"] |= {"ok": False, "findings": ["a gouge of 0.3 mm"]}
+    text = page(report)
+    assert "DOES NOT carve" in text
+    assert re.search(r'class="finding"><b>Stop</b> <span>a gouge of 0.3 mm', text)
+
+
+def test_positions_have_a_drawing_each(report):
+    for number, part in enumerate(report["programs"], 1):
+        part["position"] = {
+            "number": number,
+            "count": 2,
+            "low": [0.0, 0.0],
+            "high": [120.0, 90.0],
+            "zero": [0.0, 0.0],
+            "turned": number == 2,
+        }
+        part["placing"] = "as it lies" if number == 1 else "turn it half round"
+    text = page(report)
+    assert parsed(text).seen.count("svg") == 3
+    assert "Position 2 of 2: turn it half round" in text
+
+
+def test_jobs_of_one_stage_have_a_page_too():
+    report = start_report(resolve([]))
+    report["model"] = {"name": "cow", "notes": []}
+    text = page(report)
+    assert "Setup sheet" not in text
+    assert "relieffab" in text
+    mould = {"files": ["mould.stl"], "triangles": 10, "watertight": True, "volume_mm3": 1.0}
+    mould |= {"max_error_mm": 0.0, "draft": {"least_deg": 2.0, "asked_deg": 3.0}}
+    mould |= {"findings": ["a cast will not come free"]}
+    template = {"file": "t.pdf", "pages": 2, "paper": "a4", "contour_step_mm": 0.6}
+    text = page({**report, "mould": mould, "template": template})
+    parsed(text)
+    assert "2 pages of a4" in text
+    assert "2.00°, 3° asked" in text
+    assert "a cast will not come free" in text
