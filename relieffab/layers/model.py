@@ -20,7 +20,7 @@ class Stroke:
     points : (n, 2) ndarray
         X and Y on the panel, mm.
     kind : str
-        One of `layers.lines.names.NAMES`.
+        One of `layers.lines.names.NAMES`, or `DRAWN`.
     strength : (n,) ndarray
         0 (barely there) to 1.
     closed : bool
