@@ -127,7 +127,7 @@ def _sweep(d, low, high, mask, across, down, twist, over):  # type: ignore[no-un
 
 
 def _groups(start: Floats, mask: Bools, step: float) -> tuple[Bools, Bools, Bools]:
-    """Groups of pixels that are one surface: three in a row, three in a column, four."""
+    """Find groups of pixels on one surface: three in a row, three in a column, four."""
     most = JUMP * step
     across, down, twist = (np.zeros(mask.shape, bool) for _ in range(3))
     across[:, 1:-1] = mask[:, :-2] & mask[:, 1:-1] & mask[:, 2:]
@@ -185,10 +185,10 @@ def smoothest(values: Floats, mask: Bools, step: float) -> Floats:
     while min(lattices[-1][1].shape) > 2 * SMALLEST:
         coarse, known = _coarser(*lattices[-1])
         lattices.append((np.pad(coarse, 2), np.pad(known, 2)))
-    moved: Floats | None = None
+    moved, before = np.zeros(lattices[-1][1].shape), lattices[-1][1]
     for start, known in reversed(lattices):
         d = start.copy()
-        if moved is not None:
+        if start.shape != moved.shape:
             inner, found = _finer(moved[2:-2, 2:-2], before[2:-2, 2:-2], start.shape)
             d += np.where(known & found, inner, 0.0)
         low, high = start - 0.5 * step, start + 0.5 * step

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from relieffab.grid import Grid
 from relieffab.layers.image.vector import chains_of
 from relieffab.layers.lines.chains import Chains
 from relieffab.layers.lines.contours import fading
@@ -106,7 +105,7 @@ def _turning(layers: Layers, drawing: Drawing) -> Chains:
 
 
 def _steps(grey: Floats, layers: Layers, drawing: Drawing) -> tuple[Bools, Floats]:
-    """Steps of brightness (Canny 1986), and how strong they are, 0 to 1."""
+    """Find steps of brightness (Canny 1986), and how strong they are, 0 to 1."""
     from skimage.feature import canny
 
     sigma = 1.5 * _sigma(drawing, layers.pitch)

@@ -29,7 +29,9 @@ COARSE = 400
 def opaque(picture: Picture) -> Bools:
     """Pixels that show something: opaque, and numbers; (rows, cols)."""
     seen: Bools = np.isfinite(picture.values).all(axis=2)
-    return seen if picture.alpha is None else seen & (picture.alpha > 0.5)
+    if picture.alpha is not None:
+        seen = seen & (picture.alpha > 0.5)
+    return seen
 
 
 def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:
@@ -65,17 +67,21 @@ def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tu
     elif not seen.all():
         mask, source = seen, ALPHA
     else:
-        mask, source = _background(picture), BACKGROUND
-        if mask is None and not even:
-            mask, source = _segmented(picture), SEGMENTED
-        if mask is None:
-            mask, source = seen, WHOLE
+        mask, source = _by_colour(picture, even=even)
     mask = _without_specks(mask)
     if not mask.any():
         raise InputError(
             "the figure is empty", found=f"no pixel, by {source}", where=given or picture.name
         )
     return mask, source
+
+
+def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
+    mask = _background(picture)
+    if mask is not None:
+        return mask, BACKGROUND
+    mask = None if even else _segmented(picture)
+    return (opaque(picture), WHOLE) if mask is None else (mask, SEGMENTED)
 
 
 def _given(path: str, shape: tuple[int, int]) -> Bools:

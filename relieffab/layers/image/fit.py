@@ -93,7 +93,9 @@ def _cut(values: Floats, top: int, left: int, shape: tuple[int, int]) -> Floats:
     rows, cols = (slice(max(0, -s), max(0, min(n, m - s))) for s, n, m in zip(
         (top, left), shape, values.shape, strict=True
     ))  # fmt: skip
-    out[rows, cols] = values[rows.start + top : rows.stop + top, cols.start + left : cols.stop + left]
+    out[rows, cols] = values[
+        rows.start + top : rows.stop + top, cols.start + left : cols.stop + left
+    ]
     return out
 
 

@@ -95,9 +95,7 @@ def strokes_of(ink: Floats, grid: Grid, tolerance: float) -> tuple[Stroke, ...]:
     return tuple(sorted(out, key=lambda stroke: -length(stroke.points)))
 
 
-def level_layers(
-    grid: Grid, mask: Bools, lines: Floats, strokes: tuple[Stroke, ...]
-) -> Layers:
+def level_layers(grid: Grid, mask: Bools, lines: Floats, strokes: tuple[Stroke, ...]) -> Layers:
     """Layers of what has no depth of its own: lines and areas on a level face."""
     normals = np.zeros((*grid.shape, 3))
     normals[..., 2] = 1.0
@@ -120,6 +118,8 @@ def ink_layers(
     """Take a drawing's lines as they are: its ink, and the strokes that run through it."""
     ink = ink_of(picture)
     fit = fit_on(ink > 0.5, grid, size, margin=margin)
-    lines = spread_ink(np.clip(fit.field(ink, np.ones(ink.shape, bool)), 0.0, 1.0), drawing.spread, grid)
+    lines = spread_ink(
+        np.clip(fit.field(ink, np.ones(ink.shape, bool)), 0.0, 1.0), drawing.spread, grid
+    )
     strokes = strokes_of(lines, grid, drawing.tolerance)
     return level_layers(grid, lines > 0.02, lines, strokes), fit

@@ -1,9 +1,9 @@
-"""From slopes to depth: weighted least squares on a figure of any shape.
+"""From slopes to depth: least squares on a figure of any shape.
 
-Normal equations of sum w |grad z - g|² over neighbouring pixels, solved by conjugate
-gradients; their preconditioner is the same equation without weights on the whole
-rectangle, which a cosine transform solves (Frankot and Chellappa 1988 for slopes,
-Ghiglia and Romero 1994 for the weights and the iteration).
+Normal equations of sum |grad z - g|² over neighbouring pixels of the figure, solved by
+conjugate gradients; their preconditioner is the same equation on the whole rectangle,
+which a cosine transform solves (Frankot and Chellappa 1988 for slopes, Ghiglia and
+Romero 1994 for the mask and the iteration).
 """
 
 import numpy as np
@@ -17,8 +17,6 @@ TOLERANCE = 1e-4
 """On the residual, relative to what the slopes ask for."""
 MOST = 300
 """Iterations."""
-TORN = 0.5
-"""Curl of a pixel's slopes from which they are hardly believed."""
 
 
 def _divergence(fx: Floats, fy: Floats, shape: tuple[int, int]) -> Floats:
@@ -31,9 +29,7 @@ def _divergence(fx: Floats, fy: Floats, shape: tuple[int, int]) -> Floats:
     return out
 
 
-def _solve(
-    wx: Floats, wy: Floats, rhs: Floats, screen: float, start: Floats
-) -> Floats:
+def _solve(wx: Floats, wy: Floats, rhs: Floats, screen: float, start: Floats) -> Floats:
     """Solve -div(w grad z) + screen z = rhs."""
     rows, cols = rhs.shape
     eigen = (
@@ -82,8 +78,8 @@ def integrate(
 ) -> Floats:
     """Find the depth whose slopes come nearest to those given.
 
-    Slopes that are no surface's count the less the more they curl: there one part
-    of the figure stands in front of another, and no slope tells how far.
+    Where one part of the figure stands in front of another no slope tells how far:
+    the step is spread over what lies around it.
 
     Parameters
     ----------
@@ -107,25 +103,12 @@ def integrate(
     """
     p, q = slopes * mask
     gx, gy = 0.5 * pitch * (p[:, 1:] + p[:, :-1]), -0.5 * pitch * (q[1:] + q[:-1])
-    wx, wy = _weights(gx, gy, mask, pitch)
+    wx, wy = (mask[:, 1:] & mask[:, :-1]).astype(float), (mask[1:] & mask[:-1]).astype(float)
     screen = (pitch / length) ** 2
     lean = np.zeros(mask.shape) if reference is None else np.where(mask, reference, 0.0)
     rhs = -_divergence(wx * gx, wy * gy, mask.shape) + screen * lean
     z = _solve(wx, wy, rhs, screen, lean)
     return _levelled(z, mask) if reference is None else np.where(mask, z, 0.0)
-
-
-def _weights(gx: Floats, gy: Floats, mask: Bools, pitch: float) -> tuple[Floats, Floats]:
-    """Weights of the steps between neighbours, 0 where one of them is outside."""
-    round_trip = gx[:-1] + gy[:, 1:] - gx[1:] - gy[:, :-1]
-    whole = mask[:-1, :-1] & mask[:-1, 1:] & mask[1:, :-1] & mask[1:, 1:]
-    curl = np.where(whole, np.abs(round_trip) / pitch, 0.0)
-    wx = np.maximum(np.pad(curl, ((1, 0), (0, 0))), np.pad(curl, ((0, 1), (0, 0))))
-    wy = np.maximum(np.pad(curl, ((0, 0), (1, 0))), np.pad(curl, ((0, 0), (0, 1))))
-    return tuple(  # type: ignore[return-value]
-        (a & b) / (1.0 + (worst / TORN) ** 2)
-        for a, b, worst in ((mask[:, 1:], mask[:, :-1], wx), (mask[1:], mask[:-1], wy))
-    )
 
 
 def _levelled(z: Floats, mask: Bools) -> Floats:

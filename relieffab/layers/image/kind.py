@@ -5,12 +5,8 @@ from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.layers.image.figure import opaque
+from relieffab.layers.image.names import DEPTH, DRAWING, NORMAL, PHOTO
 from relieffab.layers.image.picture import Picture
-
-PHOTO, DRAWING, DEPTH, NORMAL = KINDS = ("photo", "drawing", "depth", "normal")
-DEPTH_FAR, NORMAL_DOWN = ("depth-white-far", "normal-y-down")
-NAMES = (*KINDS, DEPTH_FAR, NORMAL_DOWN)
-"""What a person may say; the last two settle what data would."""
 
 UNIT = 0.1
 """How far the length of a normal may be off in a normal map of 8 bits."""
@@ -28,7 +24,7 @@ def kind_of(picture: Picture) -> str:
     Returns
     -------
     str
-        One of `KINDS`.
+        One of `names.KINDS`.
 
     Raises
     ------

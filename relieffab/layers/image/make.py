@@ -1,6 +1,6 @@
 """A picture to Layers: what `layers.make` is for a mesh."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,8 @@ from relieffab.layers.image.figure import find_figure
 from relieffab.layers.image.fit import Fit, fit_on
 from relieffab.layers.image.ink import ink_layers
 from relieffab.layers.image.integrate import integrate
-from relieffab.layers.image.kind import DEPTH, DEPTH_FAR, DRAWING, NORMAL_DOWN, PHOTO, kind_of
+from relieffab.layers.image.kind import kind_of
+from relieffab.layers.image.names import DEPTH, DEPTH_FAR, DRAWING, NORMAL_DOWN, PHOTO
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.scale import to_length, white_is_far
 from relieffab.layers.image.shape import brightness, shape_of
@@ -37,7 +38,7 @@ class Showing:
     Parameters
     ----------
     kind : str or None
-        One of `kind.NAMES`; found from its values if not given.
+        One of `names.NAMES`; found from its values if not given.
     mask : str or None
         A mask's file, white where the figure is.
     deep : float or None
@@ -60,12 +61,28 @@ class Seen:
     fit : Fit
         Where the picture lies on the panel.
     facts : dict
-        For people and report.json.
+        As report.json says them.
     """
 
     layers: Layers
     fit: Fit
-    facts: Facts = field(default_factory=dict)
+    facts: Facts
+
+    @property
+    def notes(self) -> list[str]:
+        """What a person should know of it."""
+        found = [f"taken for a {self.facts['kind']}: --image says otherwise"]
+        found = found if self.facts["kind_by"] == "values" else []
+        if self.facts.get("mask"):
+            found.append(f"the figure: by {self.facts['mask']}")
+        bands = self.facts.get("banding")
+        if bands:
+            found.append(
+                f"{bands['levels']} levels of {bands['step_mm']:.3f} mm smoothed within half a step"
+            )
+        if self.facts.get("light_fit", 1.0) < 0.3:
+            found.append("its shading does not tell its form well: look at the relief")
+        return found
 
 
 def layers_of_picture(

@@ -76,6 +76,6 @@ def convention(vectors: Floats, mask: Bools) -> tuple[str, str]:
 
 
 def unit_normals(vectors: Floats, mask: Bools, way: str) -> Floats:
-    """Unit normals with Y away from the operator, none hidden from the viewer."""
+    """Return unit normals with Y away from the operator, none hidden from the viewer."""
     turned = vectors * np.array([1.0, -1.0 if way == DOWN else 1.0, 1.0])
     return normals_of(slopes_in(np.nan_to_num(turned), mask), mask)

@@ -123,7 +123,7 @@ def _split(array: NDArray[Any], top: float) -> tuple[Floats, Floats | None]:
 
 
 def _pillow(path: Path) -> _Read:
-    from PIL import Image, ImageOps
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
         with Image.open(path, formats=["PNG", "JPEG", "BMP", "GIF", "WEBP", "PPM", "TIFF"]) as raw:
@@ -134,7 +134,7 @@ def _pillow(path: Path) -> _Read:
             wide = any("16" in str(tile[3]) for tile in raw.tile) and raw.mode in ("RGB", "RGBA")
             raw.load()
             image = ImageOps.exif_transpose(raw)
-    except (Image.DecompressionBombError, Image.UnidentifiedImageError) as fault:
+    except (Image.DecompressionBombError, UnidentifiedImageError) as fault:
         raise ValueError(str(fault)) from fault
     notes = ("its 16 bits a channel were read as 8: a TIFF keeps them",) if wide else ()
     mode = image.mode

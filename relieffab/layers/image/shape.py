@@ -90,7 +90,9 @@ def _refine(
     return depth, normals
 
 
-def shape_of(grey: Floats, mask: Bools, pitch: float, facts: dict[str, Any]) -> tuple[Floats, Floats]:
+def shape_of(
+    grey: Floats, mask: Bools, pitch: float, facts: dict[str, Any]
+) -> tuple[Floats, Floats]:
     """Find depth and normals of what a photograph shows.
 
     Parameters

@@ -9,7 +9,7 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 CALM = 0.25
-"""How unlike the differences on both sides of a pixel may be, in pitches, before one is a jump's."""
+"""How unlike the slopes on both sides of a pixel may be before one of them is a jump's."""
 
 
 def _along(depth: Floats, mask: Bools, pitch: float) -> Floats:

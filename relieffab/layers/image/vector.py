@@ -14,13 +14,17 @@ Bools = NDArray[np.bool_]
 def _links(thin: Bools) -> NDArray[np.int64]:
     """Pairs of neighbouring pixels, (n, 2): diagonal ones only where no third joins them."""
     number = np.arange(thin.size).reshape(thin.shape)
-    pairs = []
-    for a, b in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
-        both = thin[a] & thin[b]
-        pairs.append(np.stack([number[a][both], number[b][both]], axis=1))
-    low, high = np.s_[:-1, :-1], np.s_[1:, 1:]
-    left, right = np.s_[1:, :-1], np.s_[:-1, 1:]
-    for a, b, c, d in ((low, high, left, right), (left, right, low, high)):
+    here, right, below, beyond = (
+        (rows, cols) for rows in (slice(-1), slice(1, None)) for cols in (slice(-1), slice(1, None))
+    )
+    every = slice(None)
+    straight = (((every, slice(-1)), (every, slice(1, None))), ((slice(-1),), (slice(1, None),)))
+    pairs = [
+        np.stack([number[a][both], number[b][both]], axis=1)
+        for a, b in straight
+        for both in (thin[a] & thin[b],)
+    ]
+    for a, b, c, d in ((here, beyond, right, below), (below, right, here, beyond)):
         both = thin[a] & thin[b] & ~thin[c] & ~thin[d]
         pairs.append(np.stack([number[a][both], number[b][both]], axis=1))
     return np.concatenate(pairs)
