@@ -64,7 +64,7 @@ ToolpathFlags = Annotated[ToolpathOptions | None, Parameter(name="*")]  # type: 
 ComposeFlags = Annotated[ComposeOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 TemplateFlags = Annotated[TemplateOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
 CompareFlags = Annotated[CompareOptions | None, Parameter(name="*")]  # type: ignore[valid-type]
-Source = Annotated[str, Parameter(help="model file, or a job file (JOB.toml)")]
+Source = Annotated[str, Parameter(help="mesh, picture, SVG or font, or a job file (JOB.toml)")]
 Output = Annotated[Path, Parameter(name=["--output", "-o"], help="folder for the files")]
 Overwrite = Annotated[
     bool, Parameter(negative="", help="replace the files of a job that is already there")

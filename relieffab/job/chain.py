@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, cast
@@ -135,15 +136,27 @@ def view_of(job: Job, mesh: Mesh) -> tuple[View, str]:
     return view, f"up axis guessed: {up} (say --up to choose)" if guessed else ""
 
 
-def model_part(mesh: Mesh, path: Path | None) -> Part:
-    """Describe the model as report.json does."""
+def model_part(mesh: Mesh, sha256: str | None) -> Part:
+    """Describe a mesh as report.json does."""
     return {
         "name": mesh.name,
+        "kind": "mesh",
         "vertices": len(mesh.vertices),
         "triangles": len(mesh.faces),
         "notes": list(mesh.notes),
-        "sha256": hashlib.sha256(path.read_bytes()).hexdigest() if path else None,
+        "sha256": sha256,
     }
+
+
+def drawing_of(job: Job) -> Drawing:
+    """Return which lines are drawn, and how."""
+    return Drawing(
+        kinds=job.line_kinds,
+        detail=job.line_detail,
+        min_length=job.line_length,
+        width=job.line_width,
+        spread=job.line_spread,
+    )
 
 
 def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
@@ -151,14 +164,7 @@ def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
     grid, stock = Grid.on_panel(job.size, job.resolution), stock_of(job)
     framed = stock.frame.width if stock.frame else 0.0
     placed = place(mesh, view, job.size, margin=framed + job.margin)
-    drawing = Drawing(
-        kinds=job.line_kinds,
-        detail=job.line_detail,
-        min_length=job.line_length,
-        width=job.line_width,
-        spread=job.line_spread,
-    )
-    layers = layers_of(placed, grid, drawing=drawing)
+    layers = layers_of(placed, grid, drawing=drawing_of(job))
     check_clear(nodes_of(layers.mask), grid, stock, job.depth)
     return layers, {
         "azimuth_deg": view.azimuth,
@@ -190,9 +196,21 @@ def write_drawing(strokes: Sequence[Stroke], job: Job, folder: Path) -> None:
     (inside / "lines.svg").write_text(drawing, encoding="utf-8")
 
 
-def solve_relief(layers: Layers, job: Job, progress: Progress = silent) -> tuple[Relief, Part]:
-    """Solve for the relief; the part is report.json's `relief`."""
-    relief, solution = make_relief(layers, carving_of(job), progress=progress)
+def solve_relief(
+    layers: Layers, job: Job, carve: str, progress: Progress = silent
+) -> tuple[Relief, Part]:
+    """Solve for the relief; the part is report.json's `relief`.
+
+    Parameters
+    ----------
+    layers : Layers
+    job : Job
+    carve : str
+        What is carved of what the job asks for.
+    progress : Progress
+    """
+    carving = replace(carving_of(job), carve=carve)
+    relief, solution = make_relief(layers, carving, progress=progress)
     return relief, {
         **relief_part(relief),
         "method": job.method,

@@ -13,7 +13,7 @@ from relieffab.errors import InputError
 from relieffab.job import chain
 from relieffab.job.folder import check_folder, finished_together
 from relieffab.job.report import Report, start_report
-from relieffab.job.run import model_of
+from relieffab.job.seen import look_at, read_model
 from relieffab.job.settings import Chosen, Job, job_of
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import lambert
@@ -159,18 +159,23 @@ def compare(
     chain.carving_of(job)
     if folder is not None:
         check_folder(folder, overwrite=overwrite)
-    mesh, path = model_of(job)
-    view, note = chain.view_of(job, mesh)
+    model = read_model(job)
     progress("layers", 0, 1)
-    layers, seen = chain.make_layers(mesh, view, job)
+    seen = look_at(model, job)
+    layers = seen.layers
+    if layers.level:
+        raise InputError(
+            "there are no methods to compare: what has no depth is cut as it is",
+            expected="a mesh, a depth or normal map, or a photograph",
+            where=str(job.model),
+        )
     progress("layers", 1, 1)
     made = list(_every(layers, job, depths, progress))
     begun = start_report(settings)
-    model = chain.model_part(mesh, path)
     report: Report = {
         **{key: begun[key] for key in ("schema", "version")},
-        "model": {**model, "notes": [*model["notes"], *([note] if note else [])]},
-        "view": seen,
+        "model": seen.model,
+        "view": seen.view,
         "settings": {
             k: v for k, v in begun["settings"].items() if k not in ("depth", "method", "wall_angle")
         },

@@ -47,14 +47,15 @@ def gather(
 ) -> dict[str, Chosen]:
     """Resolve all settings: flag > RELIEFFAB_* > job file > user configuration > default.
 
-    A model named in a job file is looked for beside that file.
+    A model or a mask named in a job file is looked for beside that file.
     """
     sources: list[tuple[str, Mapping[str, Any]]] = [("flag", flags)]
     sources += from_environment(environment)
     if job_file is not None:
         values = read_toml(job_file)
-        if isinstance(values.get("model"), str) and values["model"]:
-            values["model"] = str(job_file.parent / values["model"])
+        for name in ("model", "mask"):
+            if isinstance(values.get(name), str) and values[name]:
+                values[name] = str(job_file.parent / values[name])
         sources.append((str(job_file), values))
     user = user_configuration()
     if user.is_file():

@@ -17,9 +17,9 @@ from relieffab.job.folder import (
     finished_together,
 )
 from relieffab.job.report import Report, read_report, start_report, write_report
+from relieffab.job.seen import Seen, look_at, read_model
 from relieffab.job.settings import Chosen, Job, job_of
 from relieffab.job.stocks import stock_files
-from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
 from relieffab.panel.blank import Drafting
 from relieffab.panel.formats import FRAME, STOCK
@@ -46,36 +46,23 @@ def _reported(report: Report, folder: Path, kept: Path | None = None) -> Iterato
     write_report(report, folder, kept=kept)
 
 
-def model_of(job: Job) -> tuple[Mesh, Path | None]:
-    """Read the job's model; without one, the toolkit's own scarab is modelled."""
-    if job.model is not None:
-        return read_mesh(job.model), Path(job.model)
-    from relieffab.subject import scarab
-
-    vertices, faces = scarab()
-    return make_mesh(vertices, faces, name="scarab", usual_up="y"), None
-
-
-def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Layers:
+def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Seen:
     with _timed(report, "model", progress):
-        mesh, path = model_of(job)
-        report["model"] = chain.model_part(mesh, path)
-        view, note = chain.view_of(job, mesh)
-        if note:
-            report["model"]["notes"].append(note)
+        model = read_model(job)
     with _timed(report, "layers", progress):
-        layers, report["view"] = chain.make_layers(mesh, view, job)
-        chain.write_layers(layers, job, folder)
-    return layers
+        seen = look_at(model, job)
+        report["model"], report["view"] = seen.model, seen.view
+        chain.write_layers(seen.layers, job, folder)
+    return seen
 
 
 def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[Layers, Relief]:
-    layers = _see(job, report, folder, progress)
+    seen = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
-        relief, report["relief"] = chain.solve_relief(layers, job, progress)
+        relief, report["relief"] = chain.solve_relief(seen.layers, job, seen.carve, progress)
         report["relief"]["sha256"] = chain.write_relief(relief, folder)
     report["relief"]["seconds"] = report["timings"]["relief"]
-    return layers, relief
+    return seen.layers, relief
 
 
 def _carve(

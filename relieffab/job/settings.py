@@ -17,6 +17,10 @@ class Job:
     """
 
     model: str | None
+    text: str | None
+    image: str | None
+    image_depth: float | None
+    mask: str | None
     size: tuple[float, float]
     thickness: float
     outline: Kind

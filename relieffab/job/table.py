@@ -7,6 +7,7 @@ from typing import Any
 from relieffab import units
 from relieffab.fittings import LEVELS, PLACES
 from relieffab.job import readers
+from relieffab.layers.image.names import NAMES as PICTURES
 from relieffab.layers.lines.names import NAMES, USUAL
 from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN
@@ -36,7 +37,21 @@ class Setting:
 
 
 SETTINGS = (
-    Setting("model", str, "", "model file: STL, OBJ, PLY, OFF, GLB or 3MF"),
+    Setting("model", str, "", "a mesh, a picture, an SVG or a font"),
+    Setting("text", str, "", "what a font writes; \\n parts lines"),
+    Setting(
+        "image",
+        readers.one_of(*PICTURES),
+        "",
+        "what a picture shows, told by its values if not given: " + ", ".join(PICTURES),
+    ),
+    Setting(
+        "image_depth",
+        readers.positive,
+        "",
+        "of a depth map, farthest to nearest on the panel; half the figure's shorter side",
+    ),
+    Setting("mask", str, "", "picture of a picture's figure, which is white"),
     Setting("size", readers.size, "120x90mm", "panel, width x height"),
     Setting("thickness", readers.positive, "12mm", "of the stock"),
     Setting("outline", readers.outline, "rectangle", "of the panel: rectangle, round or arched"),

@@ -91,7 +91,7 @@ def read_mesh(path: str | Path) -> Mesh:
     if suffix not in USUAL_UP:
         raise InputError(
             "this is not a model file",
-            expected=" ".join(USUAL_UP),
+            expected=" ".join(USUAL_UP) + ", a picture, an SVG or a font",
             found=repr(path.suffix),
             where=where,
         )

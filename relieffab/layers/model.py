@@ -20,7 +20,7 @@ class Stroke:
     points : (n, 2) ndarray
         X and Y on the panel, mm.
     kind : str
-        One of `layers.lines.names.NAMES`.
+        One of `layers.lines.names.NAMES`, or `DRAWN`.
     strength : (n,) ndarray
         0 (barely there) to 1.
     closed : bool
@@ -103,3 +103,8 @@ class Layers:
     def pitch(self) -> float:
         """Side of a pixel, mm."""
         return self.grid.pitch
+
+    @property
+    def level(self) -> bool:
+        """Whether the figure has no form: all of it as near, and facing the viewer."""
+        return bool(np.ptp(self.depth[self.mask]) == 0 and (self.normals[..., 2] == 1.0).all())

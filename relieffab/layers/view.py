@@ -159,6 +159,24 @@ class Placed:
         return cls(seen, np.array(faces, np.int64), eye.matrix @ matrix, np.array(solid), eye)
 
 
+def check_room(size: tuple[float, float], margin: float) -> Floats:
+    """Return what a margin leaves of a panel, X and Y, mm.
+
+    Raises
+    ------
+    InputError
+        If nothing is left.
+    """
+    room = np.array(size) - 2 * margin
+    if not (room > 0).all() or margin < 0:
+        raise InputError(
+            "the margin leaves no room for the figure",
+            expected=f"a margin from 0 to under {min(size) / 2:g} mm",
+            found=f"{margin:g} mm on a panel of {size[0]:g} x {size[1]:g} mm",
+        )
+    return room
+
+
 def place(mesh: Mesh, view: View, size: tuple[float, float], *, margin: float) -> Placed:
     """Fit a model, seen from a view, into the panel.
 
@@ -182,13 +200,7 @@ def place(mesh: Mesh, view: View, size: tuple[float, float], *, margin: float) -
         If nothing is left inside the margin, or the model is flat or a needle as
         seen from there.
     """
-    room = np.array(size) - 2 * margin
-    if not (room > 0).all() or margin < 0:
-        raise InputError(
-            "the margin leaves no room for the figure",
-            expected=f"a margin from 0 to under {min(size) / 2:g} mm",
-            found=f"{margin:g} mm on a panel of {size[0]:g} x {size[1]:g} mm",
-        )
+    room = check_room(size, margin)
     turned = mesh.vertices @ view.rotation.T
     low, high = turned.min(axis=0), turned.max(axis=0)
     _refuse_flat(high - low, mesh.name)

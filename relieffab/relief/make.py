@@ -11,6 +11,7 @@ from relieffab.progress import Progress, silent
 from relieffab.relief.classic.methods import METHODS
 from relieffab.relief.edge import wall
 from relieffab.relief.foot import carved
+from relieffab.relief.level import sunk
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.names import LINES, SUNKEN
 from relieffab.relief.reach import carvable
@@ -77,9 +78,11 @@ def make_relief(
     relief : Relief
         -depth <= h <= 0 exactly, 0 outside the figure, its highest point at 0.
     solution : Solution or None
-        None where a classic method made it.
+        None where a classic method made it, or the figure is level.
     """
     carving = carving or Carving()
+    if layers.level:
+        return sunk(layers, carving), None
     if carving.carve == LINES:
         layers = drawing(layers)
     edge = wall(layers.mask, layers.pitch, carving.wall_angle, carving.depth)

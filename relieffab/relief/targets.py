@@ -8,15 +8,8 @@ from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import (
-    INK,
-    beside,
-    compress,
-    form,
-    occlusions,
-    slopes,
-    without_specks,
-)
+from relieffab.layers.occlusion import beside, occlusions, slopes
+from relieffab.relief.compress import INK, compress, form, without_specks
 from relieffab.relief.energy.terms import Bounds, Terms, Weights
 from relieffab.relief.groove import inked, swept
 from relieffab.relief.model import inner_nodes, nodes_of, pixel_slopes, to_nodes

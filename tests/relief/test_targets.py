@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import occlusions
+from relieffab.layers.occlusion import occlusions
 from relieffab.relief.groove import BEYOND, inked
 from relieffab.relief.model import nodes_of, pixel_slopes, to_nodes
 from relieffab.relief.targets import Carving, Fit, line_depth, terms_of

@@ -16,6 +16,9 @@ SECONDARY = (
 )
 """Lines that tell how a form bends."""
 NAMES = (*PRINCIPAL, *SECONDARY)
+"""Lines that a form gives."""
+DRAWN = "drawn"
+"""A line that nobody found: it was drawn, or written."""
 USUAL = (*PRINCIPAL, "suggestive")
 
 

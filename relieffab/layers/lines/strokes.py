@@ -47,17 +47,17 @@ def draw_strokes(
     tuple of Stroke
         Kind by kind, principal ones first, of each the longest first.
     """
-    drawing = _visible_lengths(drawing or Drawing(), grid.pitch)
+    drawing = visible_lengths(drawing or Drawing(), grid.pitch)
     mesh = _Mesh.of(placed, drawing)
-    drawn = _outer(raster.mask, grid, drawing.min_length)
+    drawn = outer_lines(raster.mask, grid, drawing.min_length)
     for kind in KINDS:
         if kind.name in drawing.kinds and kind.name != "outline":
             chains, keep = _seen(kind, mesh, raster, grid)
             drawn += tidy(kind.name, chains, keep, drawn, Rules.of(kind, drawing, grid.pitch))
-    return tuple(_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
+    return tuple(to_stroke(line, drawing) for line in drawn if line.kind in drawing.kinds)
 
 
-def _visible_lengths(drawing: Drawing, pitch: float) -> Drawing:
+def visible_lengths(drawing: Drawing, pitch: float) -> Drawing:
     """Raise lengths that no picture of this pitch could show, but for those set to 0."""
     least = {"detail": 4 * pitch, "min_length": 12 * pitch, "spacing": 3 * pitch}
     return replace(
@@ -70,7 +70,8 @@ def _visible_lengths(drawing: Drawing, pitch: float) -> Drawing:
     )
 
 
-def _outer(mask: Flags, grid: Grid, min_length: float) -> list[Line]:
+def outer_lines(mask: Flags, grid: Grid, min_length: float) -> list[Line]:
+    """Draw the figure's outline, the longest part first."""
     lines = [points for points in outlines(mask, grid) if length(points) >= min_length]
     return [
         Line("outline", np.column_stack([points, np.ones(len(points))]), True)
@@ -120,7 +121,8 @@ class _Mesh:
         return edge_lines(self.placed.vertices, self.edges.ends[here], gentler)
 
 
-def _stroke(line: Line, drawing: Drawing) -> Stroke:
+def to_stroke(line: Line, drawing: Drawing) -> Stroke:
+    """Leave out what a line does not need, and weigh it by its kind."""
     table = simplify(line.table, drawing.tolerance, closed=line.closed)
     share = 1.0 if line.kind in PRINCIPAL else drawing.secondary
     strength = share * np.clip(table[:, 2], 0.0, 1.0)

@@ -6,7 +6,7 @@ import numpy as np
 from lxml import etree
 
 from relieffab.errors import InputError
-from relieffab.layers.lines.names import NAMES, PRINCIPAL
+from relieffab.layers.lines.names import DRAWN, NAMES, PRINCIPAL
 from relieffab.layers.model import Stroke
 
 _INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
@@ -39,7 +39,7 @@ def strokes_to_svg(
         viewBox=f"0 0 {across:g} {high:g}",
     )
     strokes = tuple(strokes)
-    for kind in NAMES:
+    for kind in (*NAMES, DRAWN):
         members = [stroke for stroke in strokes if stroke.kind == kind]
         if not members:
             continue
@@ -57,7 +57,7 @@ def strokes_to_svg(
 
 def pen_width(kind: str, width: float) -> float:
     """Say how wide a kind of line is drawn where those that bound a form are `width` wide."""
-    return width if kind in PRINCIPAL else width / 2
+    return width if kind in (*PRINCIPAL, DRAWN) else width / 2
 
 
 def _path(stroke: Stroke, high: float) -> str:

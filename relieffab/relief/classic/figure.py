@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import beside, occlusions, slopes
+from relieffab.layers.occlusion import beside, occlusions, slopes
 from relieffab.relief.window import figure_size
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@ from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.model import Layers
-from relieffab.relief.compress import beside, occlusions, slopes
+from relieffab.layers.occlusion import beside, occlusions, slopes
 from relieffab.relief.model import Relief, pixel_slopes
 
 Floats = NDArray[np.float64]

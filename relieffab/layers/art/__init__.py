@@ -1,0 +1,5 @@
+"""From vector art to Layers: the paths of an SVG, or text in a font.
+
+`svg` and `text` read, `curves` flattens, `art` is what both give, `fill` finds the
+pixels inside, `make` puts the layers together.
+"""

@@ -1,0 +1,162 @@
+"""Where a picture's figure is: its mask, and what tells it."""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from relieffab.errors import InputError
+from relieffab.layers.image.picture import Picture
+from relieffab.layers.image.read import read_picture
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+ALPHA, GIVEN, BACKGROUND, SEGMENTED, WHOLE = (
+    "alpha", "mask file", "even background", "segmentation", "whole picture",
+)  # fmt: skip
+LEAST = 1e-3
+"""Of the picture: a smaller figure is a speck."""
+ALIKE = 0.5
+"""Share of the border's pixels that an even background takes."""
+SPREAD = 0.25
+"""Of the picture's own spread of colours: a border more varied is no background."""
+COARSE = 400
+"""Pixels at most each way for segmentation."""
+
+
+def opaque(picture: Picture) -> Bools:
+    """Pixels that show something: opaque, and numbers; (rows, cols)."""
+    seen: Bools = np.isfinite(picture.values).all(axis=2)
+    if picture.alpha is not None:
+        seen = seen & (picture.alpha > 0.5)
+    return seen
+
+
+def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:
+    """Find the figure's pixels, by what tells it most surely.
+
+    In this order: a mask file, transparency and pixels that are no numbers, a
+    background of exactly one value that most of the border has, and for
+    photographs a segmentation.
+
+    Parameters
+    ----------
+    picture : Picture
+    given : str, optional
+        A mask's file: white is the figure.
+    even : bool
+        Whether an even background is the only one looked for, as for depth and
+        normal maps.
+
+    Returns
+    -------
+    mask : (rows, cols) ndarray of bool
+    source : str
+        Which of them it was.
+
+    Raises
+    ------
+    InputError
+        If the mask does not fit, or the figure is empty.
+    """
+    seen = opaque(picture)
+    if given is not None:
+        mask, source = seen & _given(given, picture.shape), GIVEN
+    elif not seen.all():
+        mask, source = seen, ALPHA
+    else:
+        mask, source = _by_colour(picture, even=even)
+    mask = _without_specks(mask)
+    if not mask.any():
+        raise InputError(
+            "the figure is empty", found=f"no pixel, by {source}", where=given or picture.name
+        )
+    return mask, source
+
+
+def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
+    mask = _background(picture)
+    if mask is not None:
+        return mask, BACKGROUND
+    mask = None if even else _segmented(picture)
+    return (opaque(picture), WHOLE) if mask is None else (mask, SEGMENTED)
+
+
+def _given(path: str, shape: tuple[int, int]) -> Bools:
+    mask = read_picture(Path(path))
+    if mask.shape != shape:
+        raise InputError(
+            "the mask does not fit the picture",
+            expected=f"{shape[1]} x {shape[0]} pixels",
+            found=f"{mask.shape[1]} x {mask.shape[0]}",
+            where=path,
+        )
+    inside: Bools = mask.grey > 0.5 * np.nanmax(mask.grey)
+    return inside & opaque(mask)
+
+
+def border(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Pixels along the four sides, one after the other."""
+    return np.concatenate([array[0], array[-1], array[1:-1, 0], array[1:-1, -1]])
+
+
+def _background(picture: Picture) -> Bools | None:
+    """All that is not exactly the colour that most of the border has."""
+    edge = border(picture.values)
+    colours, counts = np.unique(edge, axis=0, return_counts=True)
+    if counts.max() < ALIKE * len(edge):
+        return None
+    colour = colours[counts.argmax()]
+    mask: Bools = (picture.values != colour).any(axis=2)
+    return mask if LEAST < mask.mean() < 1.0 - LEAST else None
+
+
+def _segmented(picture: Picture) -> Bools | None:
+    """Part a photograph's figure from its background by random walks (Grady 2006).
+
+    The border is background; what differs most from its colours, away from it, is
+    figure; walks over a small copy decide the rest.
+    """
+    from skimage.segmentation import random_walker
+    from skimage.transform import resize
+
+    shrink = max(1.0, max(picture.shape) / COARSE)
+    shape = tuple(max(16, round(n / shrink)) for n in picture.shape)
+    small = resize(np.nan_to_num(picture.values), (*shape, picture.values.shape[2]), order=1)
+    small = ndimage.gaussian_filter(small, (1.5, 1.5, 0))
+    edge = border(small)
+    centre = np.median(edge, axis=0)
+    off = np.linalg.norm(small - centre, axis=2)
+    noise = np.percentile(np.linalg.norm(edge - centre, axis=1), 90)
+    most = np.percentile(off, 98)
+    if noise > SPREAD * most:
+        return None
+    seeds = np.zeros(shape, np.int32)
+    seeds[off < 1.2 * noise + 0.02 * most] = 1
+    seeds[[0, -1]] = 1
+    seeds[:, [0, -1]] = 1
+    inner = ndimage.binary_erosion(off > 2.5 * noise + 0.12 * most, iterations=2)
+    seeds[inner] = 2
+    if not inner.any():
+        return None
+    label = random_walker(
+        small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-3, prob_tol=1e-2
+    )
+    figure = ndimage.binary_fill_holes(label == 2)
+    share = figure.mean()
+    if not 0.02 < share < 0.95:
+        return None
+    back = resize(figure.astype(float), picture.shape, order=1) > 0.5
+    return np.asarray(back, bool)
+
+
+def _without_specks(mask: Bools) -> Bools:
+    """Leave out parts of the figure that are specks beside its largest."""
+    parts, count = ndimage.label(mask, np.ones((3, 3)))
+    if count < 2:
+        return mask
+    sizes = np.bincount(parts.ravel())[1:]
+    keep = np.concatenate([[False], sizes >= max(LEAST * sizes.max(), 4)])
+    return np.asarray(keep[parts], bool)

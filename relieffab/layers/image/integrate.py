@@ -1,0 +1,120 @@
+"""From slopes to depth: least squares on a figure of any shape.
+
+Normal equations of sum |grad z - g|² over neighbouring pixels of the figure, solved by
+conjugate gradients; their preconditioner is the same equation on the whole rectangle,
+which a cosine transform solves (Frankot and Chellappa 1988 for slopes, Ghiglia and
+Romero 1994 for the mask and the iteration).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dctn, idctn
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+TOLERANCE = 1e-4
+"""On the residual, relative to what the slopes ask for."""
+MOST = 300
+"""Iterations."""
+
+
+def _divergence(fx: Floats, fy: Floats, shape: tuple[int, int]) -> Floats:
+    """Return minus the adjoint of differences: what flows out of every pixel."""
+    out = np.zeros(shape)
+    out[:, :-1] += fx
+    out[:, 1:] -= fx
+    out[:-1] += fy
+    out[1:] -= fy
+    return out
+
+
+def _solve(wx: Floats, wy: Floats, rhs: Floats, screen: float, start: Floats) -> Floats:
+    """Solve -div(w grad z) + screen z = rhs."""
+    rows, cols = rhs.shape
+    eigen = (
+        (2 - 2 * np.cos(np.pi * np.arange(rows) / rows))[:, None]
+        + (2 - 2 * np.cos(np.pi * np.arange(cols) / cols))
+        + max(screen, 1e-9)
+    )
+    active = np.zeros((rows, cols), bool)
+    active[:, :-1] |= wx > 0
+    active[:, 1:] |= wx > 0
+    active[:-1] |= wy > 0
+    active[1:] |= wy > 0
+
+    def apply(z: Floats) -> Floats:
+        flow = -_divergence(wx * np.diff(z, axis=1), wy * np.diff(z, axis=0), z.shape)
+        return flow + screen * z * active
+
+    def eased(r: Floats) -> Floats:
+        return np.asarray(idctn(dctn(r, norm="ortho") / eigen, norm="ortho")) * active
+
+    z = start * active
+    r = np.where(active, rhs, 0.0) - apply(z)
+    goal = TOLERANCE * float(np.linalg.norm(np.where(active, rhs, 0.0))) + 1e-300
+    y = eased(r)
+    direction, rho = y, float((r * y).sum())
+    for _ in range(MOST):
+        if float(np.linalg.norm(r)) <= goal or rho <= 0:
+            break
+        product = apply(direction)
+        size = rho / float((direction * product).sum())
+        z = z + size * direction
+        r = r - size * product
+        y = eased(r)
+        before, rho = rho, float((r * y).sum())
+        direction = y + rho / before * direction
+    return z
+
+
+def integrate(
+    slopes: Floats,
+    mask: Bools,
+    pitch: float,
+    *,
+    reference: Floats | None = None,
+    length: float = np.inf,
+) -> Floats:
+    """Find the depth whose slopes come nearest to those given.
+
+    Where one part of the figure stands in front of another no slope tells how far:
+    the step is spread over what lies around it.
+
+    Parameters
+    ----------
+    slopes : (2, rows, cols) ndarray
+        dD/dx and dD/dy at the pixels.
+    mask : (rows, cols) ndarray of bool
+        The figure; a natural boundary along its edge.
+    pitch : float
+        mm.
+    reference : (rows, cols) ndarray, optional
+        Forms wider than `length` follow it, mm: sum ((D - reference) / length)² is
+        added.
+    length : float
+        mm.
+
+    Returns
+    -------
+    (rows, cols) ndarray
+        mm, the nearest point of every part of the figure at 0 where there is no
+        reference; 0 outside.
+    """
+    p, q = slopes * mask
+    gx, gy = 0.5 * pitch * (p[:, 1:] + p[:, :-1]), -0.5 * pitch * (q[1:] + q[:-1])
+    wx, wy = (mask[:, 1:] & mask[:, :-1]).astype(float), (mask[1:] & mask[:-1]).astype(float)
+    screen = (pitch / length) ** 2
+    lean = np.zeros(mask.shape) if reference is None else np.where(mask, reference, 0.0)
+    rhs = -_divergence(wx * gx, wy * gy, mask.shape) + screen * lean
+    z = _solve(wx, wy, rhs, screen, lean)
+    return _levelled(z, mask) if reference is None else np.where(mask, z, 0.0)
+
+
+def _levelled(z: Floats, mask: Bools) -> Floats:
+    """Bring the nearest point of each part of the figure to 0: nothing says how they stand."""
+    from scipy import ndimage
+
+    parts, count = ndimage.label(mask)
+    top = ndimage.maximum(z, parts, np.arange(count + 1))
+    return np.where(mask, z - np.asarray(top)[parts], 0.0)

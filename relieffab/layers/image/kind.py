@@ -1,0 +1,61 @@
+"""What a picture shows, told by its values."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.errors import InputError
+from relieffab.layers.image.figure import opaque
+from relieffab.layers.image.names import DEPTH, DRAWING, NORMAL, PHOTO
+from relieffab.layers.image.picture import Picture
+
+UNIT = 0.1
+"""How far the length of a normal may be off in a normal map of 8 bits."""
+TWO_TONED = 0.9
+"""Share of a drawing's pixels that are nearly its darkest or its lightest."""
+
+
+def kind_of(picture: Picture) -> str:
+    """Guess what a picture shows.
+
+    Colours that are unit vectors are normals; one channel of floating point or 16
+    bits is a depth map; two tones with nothing between are a drawing; what is left
+    is a photograph.  A grey picture of 8 bits may be either: see `--image`.
+
+    Returns
+    -------
+    str
+        One of `names.KINDS`.
+
+    Raises
+    ------
+    InputError
+        If all its pixels are alike.
+    """
+    seen = opaque(picture)
+    values = picture.values[seen]
+    if np.ptp(values, axis=0).max() == 0:
+        raise InputError(
+            "the picture is all of one colour: it shows nothing",
+            found=f"{picture.shape[1]} x {picture.shape[0]} pixels alike",
+            where=picture.name,
+        )
+    if picture.coloured:
+        return NORMAL if _unit_vectors(values, picture.bits) else PHOTO
+    if picture.bits is None or picture.bits > 8:
+        return DEPTH
+    grey = picture.grey[seen]
+    low, high = np.percentile(grey, (0.1, 99.9))
+    near = np.minimum(grey - low, high - grey) < 0.12 * max(high - low, 1e-9)
+    return DRAWING if near.mean() >= TWO_TONED else PHOTO
+
+
+def _unit_vectors(values: NDArray[np.float64], bits: int | None) -> bool:
+    """Whether most colours are unit vectors that face the viewer."""
+    stored = bits is None and values.min() < -0.01
+    vectors = values if stored else 2.0 * values - 1.0
+    length = np.linalg.norm(vectors, axis=1)
+    marked = np.ptp(values, axis=1) > 0.02  # a grey background is none
+    if marked.mean() < 0.02:
+        return False
+    fit = np.abs(length[marked] - 1.0) < UNIT
+    return bool(fit.mean() > 0.8 and np.median(vectors[marked, 2]) > 0.0)
