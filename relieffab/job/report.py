@@ -33,6 +33,7 @@ KEYS = (
     "programs",
     "verification",
     "picture",
+    "batch",
     "timings",
 )
 
