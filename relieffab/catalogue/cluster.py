@@ -124,7 +124,7 @@ def _on_worker(work: Work, task: Task) -> Result:
     """Do a task in a worker of a cluster, with as many threads as the worker has."""
     from distributed import get_worker
 
-    from relieffab.compiled import numba
+    from relieffab.compiled import limit_threads
 
-    numba.set_num_threads(min(get_worker().state.nthreads, numba.config.NUMBA_NUM_THREADS))
+    limit_threads(get_worker().state.nthreads)
     return work(task)

@@ -6,7 +6,7 @@ from pathlib import Path
 # from 1,280 to 1,310,720 triangles, in processes that had carried out jobs before.
 BASE = {"layers": 0.4e9, "relief": 0.4e9, "make": 1.35e9}
 PER_PIXEL = {"layers": 350.0, "relief": 350.0, "make": 280.0}
-PER_TRIANGLE = 1500.0
+PER_TRIANGLE = 1700.0
 
 TRIANGLE = {".stl": 50, ".ply": 19, ".obj": 30, ".off": 30, ".glb": 18, ".3mf": 10}
 """Bytes of a file for each triangle, at least."""
