@@ -43,6 +43,11 @@ import numba  # noqa: E402
 prange = numba.prange
 
 
+def limit_threads(count: int) -> None:
+    """Let kernels called from this thread use at most so many threads."""
+    numba.set_num_threads(min(count, numba.config.NUMBA_NUM_THREADS))
+
+
 # Divisions by zero give infinities, as in NumPy: a test before each would keep
 # loops from using vectors.
 _USUAL: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}

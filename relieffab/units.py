@@ -6,6 +6,10 @@ from relieffab.errors import InputError, suggest
 
 MM_PER = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, '"': 25.4, "ft": 304.8}
 DEGREES_PER = {"deg": 1.0, "°": 1.0, "rad": 57.29577951308232}
+BYTES_PER = {
+    **{"B": 1.0, "kB": 1e3, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12},
+    **{"KiB": 2.0**10, "MiB": 2.0**20, "GiB": 2.0**30, "TiB": 2.0**40},
+}
 PER_MINUTE = {"min": 1.0, "s": 60.0, "sec": 60.0}
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -108,3 +112,30 @@ def feed(text: str | float) -> float:
     over, _, under = unit.partition("/")
     scale = _scale(over, MM_PER, "length", text)
     return value * scale * _scale(under, PER_MINUTE, "time", text)
+
+
+def memory(text: str) -> int:
+    """Read a size of memory, in bytes; it needs its unit.
+
+    Examples
+    --------
+    >>> memory("4GiB")
+    4294967296
+    """
+    value, unit = _split(text, "a size of memory", "4GiB")
+    if not unit or value <= 0:
+        raise InputError(
+            "this is not a size of memory", expected="such as 4GiB or 800MB", found=repr(text)
+        )
+    return int(value * _scale(unit, BYTES_PER, "memory", text))
+
+
+def memory_text(count: float) -> str:
+    """Write a size of memory, in bytes, as a person reads it.
+
+    Examples
+    --------
+    >>> memory_text(4294967296), memory_text(3e8)
+    ('4.0 GiB', '286 MiB')
+    """
+    return f"{count / 2**30:.1f} GiB" if count >= 2**30 else f"{count / 2**20:.0f} MiB"

@@ -29,7 +29,9 @@ def progress_bar() -> Iterator[Progress]:
         TextColumn("{task.fields[count]:>24}"),
         TimeRemainingColumn(),
     )
-    with Bars(*columns, console=Console(stderr=True)) as bars:
+    # What is printed meanwhile goes above the bars, but not where it goes into a file.
+    shared = sys.stdout.isatty()
+    with Bars(*columns, console=Console(stderr=True), redirect_stdout=shared) as bars:
         tasks: dict[str, Any] = {}
 
         def show(stage: str, done: float, total: float, unit: str = "") -> None:

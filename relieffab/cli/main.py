@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 from relieffab import __version__
-from relieffab.cli import comparison, composing, first, stages
+from relieffab.cli import batch, comparison, composing, first, stages
 from relieffab.cli.interrupt import listen
 from relieffab.cli.machines import machines
 from relieffab.cli.send import send
@@ -37,6 +37,7 @@ for command in (
     stages.verify,
     composing.compose,
     comparison.compare,
+    batch.batch,
     send,
     show,
 ):

@@ -1,7 +1,7 @@
 """Where settings come from: flags, environment, job file, user's configuration."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,9 @@ from relieffab.job.settings import Chosen, resolve
 from relieffab.job.table import SETTINGS
 
 PREFIX = "RELIEFFAB_"
+
+Source = tuple[str, Mapping[str, Any]]
+"""Who says something, and what."""
 
 
 def user_configuration() -> Path:
@@ -33,13 +36,22 @@ def read_toml(path: Path) -> dict[str, Any]:
         ) from fault
 
 
-def from_environment(environment: Mapping[str, str]) -> list[tuple[str, Mapping[str, Any]]]:
+def from_environment(environment: Mapping[str, str]) -> list[Source]:
     """Return each RELIEFFAB_* variable as a source of its own; unknown ones are refused later."""
     return [
         (variable, {variable.removeprefix(PREFIX).lower(): text})
         for variable, text in sorted(environment.items())
         if variable.startswith(PREFIX)
     ]
+
+
+def job_source(job_file: Path) -> Source:
+    """Read a job file; a model or a mask named in it is looked for beside it."""
+    values = read_toml(job_file)
+    for name in ("model", "mask"):
+        if isinstance(values.get(name), str) and values[name]:
+            values[name] = str(job_file.parent / values[name])
+    return str(job_file), values
 
 
 def gather(
@@ -49,14 +61,14 @@ def gather(
 
     A model or a mask named in a job file is looked for beside that file.
     """
-    sources: list[tuple[str, Mapping[str, Any]]] = [("flag", flags)]
-    sources += from_environment(environment)
-    if job_file is not None:
-        values = read_toml(job_file)
-        for name in ("model", "mask"):
-            if isinstance(values.get(name), str) and values[name]:
-                values[name] = str(job_file.parent / values[name])
-        sources.append((str(job_file), values))
+    return layered(flags, environment, [job_source(job_file)] if job_file is not None else [])
+
+
+def layered(
+    flags: Mapping[str, Any], environment: Mapping[str, str], files: Sequence[Source]
+) -> dict[str, Chosen]:
+    """Resolve all settings as `gather` does, with any number of files, the strongest first."""
+    sources: list[Source] = [("flag", flags), *from_environment(environment), *files]
     user = user_configuration()
     if user.is_file():
         sources.append((str(user), read_toml(user)))

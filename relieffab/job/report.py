@@ -32,6 +32,7 @@ KEYS = (
     "programs",
     "verification",
     "picture",
+    "batch",
     "timings",
 )
 

@@ -1,0 +1,1 @@
+"""Many jobs into one folder: what is asked, who carries it out, and the page that shows it."""

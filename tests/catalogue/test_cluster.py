@@ -1,0 +1,70 @@
+import os
+import signal
+
+import pytest
+
+from relieffab.catalogue import run
+from relieffab.errors import InputError
+
+distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+
+from relieffab.catalogue.cluster import Cluster  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def two():
+    """A cluster of two workers on this machine."""
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, memory_limit="4GiB"
+    ) as cluster:
+        yield cluster
+
+
+def test_eight_jobs_and_a_worker_killed_midway(two, stones):
+    jobs, out = stones
+    pids, told = [worker.pid for worker in two.workers.values()], []
+
+    def tell(row):
+        told.append(row["name"])
+        if len(told) == 3:
+            os.kill(pids[0], signal.SIGKILL)
+
+    found = run.batch(jobs, out, "relief", lambda _: Cluster(two.scheduler_address), tell=tell)
+    assert sorted(told) == [f"stone-{k}" for k in range(8)]
+    assert (found["done"], found["failed"]) == (8, 0)
+    assert len(list(out.glob("*/report.json"))) == 8
+    assert [p.name for p in out.rglob(".*")] == []
+
+
+def test_a_job_that_kills_every_worker_fails_with_the_reason(two):
+    with distributed.config.set({"distributed.scheduler.allowed-failures": 0}):
+        two.scheduler.allowed_failures = 0
+        with Cluster(two.scheduler_address, _die) as engine:
+            assert engine.room == 4 << 30
+            future = engine.submit(_Named())
+            future.exception(timeout=60)
+            assert "died" in engine.settle(future)
+
+
+class _Named:
+    name, token = "x", "y"
+
+
+def _die(_):
+    os._exit(1)
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense://here"])
+def test_where_no_scheduler_answers(address, monkeypatch):
+    monkeypatch.setattr("relieffab.catalogue.cluster.PATIENCE", 1)
+    with pytest.raises(InputError, match="no Dask scheduler answers"):
+        Cluster(address)
+
+
+def test_a_cluster_without_workers(monkeypatch):
+    monkeypatch.setattr("relieffab.catalogue.cluster.PATIENCE", 1)
+    with (
+        distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False) as cluster,
+        pytest.raises(InputError, match="no workers"),
+    ):
+        Cluster(cluster.scheduler_address)
