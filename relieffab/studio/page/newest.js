@@ -30,20 +30,27 @@ export class Newest {
   async #run() {
     this.running = true;
     this.busy(true);
-    while (this.waiting) {
-      const { question } = this.waiting;
-      this.waiting = null;
-      const flight = (this.flight = {});
-      try {
-        const answer = await this.send(question);
-        if (this.flight === flight) this.show(answer, question);
-      } catch (error) {
-        if (error instanceof Superseded) await this.#askAgain(question);
-        else if (this.flight === flight) this.fail(error, question);
-      }
+    try {
+      while (this.waiting) await this.#one();
+    } finally {
+      this.running = false;
+      this.busy(false);
     }
-    this.running = false;
-    this.busy(false);
+  }
+
+  async #one() {
+    const { question } = this.waiting;
+    this.waiting = null;
+    const flight = (this.flight = {});
+    let answer;
+    try {
+      answer = await this.send(question);
+    } catch (error) {
+      if (error instanceof Superseded) await this.#askAgain(question);
+      else if (this.flight === flight) this.fail(error, question);
+      return;
+    }
+    if (this.flight === flight) this.show(answer, question);
   }
 
   /** Somebody else asked: another page, say.  Let that pass, then ask anew. */

@@ -50,6 +50,20 @@ export function openToLight(field, light, open) {
       open[2 * at] = Math.min(1, Math.max(0, seen));
     },
   });
+  soften(field, open);
+}
+
+/** Average each node's light with its neighbours': 1/4 1/2 1/4, both ways. */
+function soften({ rows, cols }, open) {
+  const before = new Float32Array(rows * cols);
+  for (const [step, side] of [[1, cols], [cols, rows]]) {
+    for (let at = 0; at < before.length; at++) before[at] = open[2 * at];
+    for (let at = 0; at < before.length; at++) {
+      const place = step === 1 ? at % cols : Math.floor(at / cols);
+      if (place === 0 || place === side - 1) continue;
+      open[2 * at] = (before[at - step] + 2 * before[at] + before[at + step]) / 4;
+    }
+  }
 }
 
 /** Share of an even sky that each node sees, into every other place of `open`. */

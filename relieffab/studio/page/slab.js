@@ -57,7 +57,7 @@ export class Slab {
     geometry.setAttribute("normal", new BufferAttribute(new Float32Array(3 * rows * cols), 3));
     this.open = new BufferAttribute(new Float32Array(2 * rows * cols).fill(1), 2);
     geometry.setAttribute("openness", this.open);
-    geometry.setIndex(new BufferAttribute(quads(rows, cols), 1));
+    geometry.setIndex(new BufferAttribute(new Uint32Array(6 * (rows - 1) * (cols - 1)), 1));
     this.face = new Mesh(geometry, stone({ open: true }));
     this.face.frustumCulled = false;
     const [x, y] = origin;
@@ -66,40 +66,53 @@ export class Slab {
     this.dress(this.material);
   }
 
-  /** Write heights and normals, by central differences. */
+  /** Write heights, normals and which way each cell is folded. */
   #raise() {
-    const { heights, rows, cols, pitch } = this.field;
     const { position, normal } = this.face.geometry.attributes;
-    for (let row = 0, at = 0; row < rows; row++) {
-      const up = row > 0 ? -cols : 0;
-      const down = row < rows - 1 ? cols : 0;
-      for (let col = 0; col < cols; col++, at++) {
-        const left = col > 0 ? -1 : 0;
-        const right = col < cols - 1 ? 1 : 0;
-        const p = (heights[at + right] - heights[at + left]) / ((right - left) * pitch || 1);
-        const q = (heights[at + up] - heights[at + down]) / (((down - up) / cols) * pitch || 1);
-        const length = Math.sqrt(p * p + q * q + 1);
-        position.array[3 * at + 2] = heights[at];
-        normal.array[3 * at] = -p / length;
-        normal.array[3 * at + 1] = -q / length;
-        normal.array[3 * at + 2] = 1 / length;
-      }
-    }
-    position.needsUpdate = normal.needsUpdate = true;
+    const { heights } = this.field;
+    for (let at = 0; at < heights.length; at++) position.array[3 * at + 2] = heights[at];
+    lean(this.field, normal.array);
+    fold(this.field, this.face.geometry.index.array);
+    position.needsUpdate = normal.needsUpdate = this.face.geometry.index.needsUpdate = true;
   }
 }
 
-/** Two triangles a cell. */
-function quads(rows, cols) {
-  const index = new Uint32Array(6 * (rows - 1) * (cols - 1));
+/** Normals at nodes, by differences averaged across: a steep wall's steps are no form. */
+function lean({ heights, rows, cols, pitch }, normals) {
+  for (let row = 0, at = 0; row < rows; row++) {
+    const up = row > 0 ? -cols : 0;
+    const down = row < rows - 1 ? cols : 0;
+    for (let col = 0; col < cols; col++, at++) {
+      const left = col > 0 ? -1 : 0;
+      const right = col < cols - 1 ? 1 : 0;
+      const along = (by) => heights[at + by + right] - heights[at + by + left];
+      const across = (by) => heights[at + by + up] - heights[at + by + down];
+      const p = (along(up) + 2 * along(0) + along(down)) / (4 * (right - left) * pitch);
+      const q = (across(left) + 2 * across(0) + across(right)) / (4 * ((down - up) / cols) * pitch);
+      const length = Math.sqrt(p * p + q * q + 1);
+      normals[3 * at] = -p / length;
+      normals[3 * at + 1] = -q / length;
+      normals[3 * at + 2] = 1 / length;
+    }
+  }
+}
+
+/** Two triangles a cell, folded along the diagonal that rises less: walls run on, unbroken. */
+function fold({ heights, rows, cols }, index) {
   let at = 0;
   for (let row = 0; row < rows - 1; row++)
     for (let col = 0; col < cols - 1; col++) {
       const a = row * cols + col;
-      index.set([a, a + cols, a + 1, a + 1, a + cols, a + cols + 1], at);
+      const [b, c, d] = [a + 1, a + cols, a + cols + 1];
+      const other = Math.abs(heights[a] - heights[d]) < Math.abs(heights[b] - heights[c]);
+      index[at] = a;
+      index[at + 1] = c;
+      index[at + 2] = other ? d : b;
+      index[at + 3] = other ? a : b;
+      index[at + 4] = other ? d : c;
+      index[at + 5] = other ? b : d;
       at += 6;
     }
-  return index;
 }
 
 /** The sides and the back of a block under the face. */

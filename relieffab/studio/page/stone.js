@@ -8,8 +8,8 @@ const LOOKS = {
   marble: { colour: "#e6e3de", grain: 0.03, along: 2.5 },
   granite: { colour: "#a9a29b", grain: 0.16, along: 1 },
   slate: { colour: "#6e757b", grain: 0.05, along: 4 },
-  softwood: { colour: "#ddb987", grain: 0.1, along: 22 },
-  hardwood: { colour: "#a9764c", grain: 0.12, along: 26 },
+  softwood: { colour: "#dfbd8d", grain: 0.055, along: 22 },
+  hardwood: { colour: "#a9764c", grain: 0.08, along: 26 },
   mdf: { colour: "#c9a67c", grain: 0.05, along: 1 },
   foam: { colour: "#d9dfe0", grain: 0.02, along: 1 },
 };

@@ -6,7 +6,8 @@ import { ink, ribbons } from "../ribbons.js";
 import { dispose } from "../stage.js";
 import { FlatView } from "./flat.js";
 
-const GREY = "vec3 colour(float value) { return vec3(value); }";
+// Warm greys: a picture on the same paper.
+const GREY = "vec3 colour(float value) { return mix(vec3(0.11, 0.1, 0.085), vec3(0.984, 0.973, 0.945), value); }";
 // A blank sheet: the strokes themselves are drawn on it, sharper than their picture.
 const SHEET = "vec3 colour(float value) { return vec3(0.984, 0.973, 0.945); }";
 

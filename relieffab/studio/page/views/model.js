@@ -55,7 +55,8 @@ export class ModelView {
   place() {
     const room = roomOf(this.store.settings);
     if (!this.model || !room) return;
-    const matrix = placement(this.points, anglesOf(this.store.settings), this.up, room);
+    const up = this.store.settings.up || this.up;
+    const matrix = placement(this.points, anglesOf(this.store.settings), up, room);
     if (!matrix.elements.every(Number.isFinite)) return;
     this.model.matrix.copy(matrix);
     this.model.matrixWorldNeedsUpdate = true;
@@ -131,6 +132,9 @@ export class ModelView {
     this.strokes.matrix.makeTranslation(0, 0, ABOVE).multiply(moved);
     this.strokes.matrixWorldNeedsUpdate = true;
     const away = moved.elements.reduce((most, value, at) => Math.max(most, Math.abs(value - (at % 5 ? 0 : 1))), 0);
-    this.strokes.material.uniforms.fade.value = away > 0.02 ? STALE : 0.92;
+    // What the drawing hides is hidden in its own view alone.
+    const stale = away > 0.02;
+    this.strokes.material.depthTest = stale;
+    this.strokes.material.uniforms.fade.value = stale ? STALE : 0.92;
   }
 }
