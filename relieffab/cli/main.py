@@ -14,6 +14,7 @@ from relieffab.cli import comparison, composing, first, stages
 from relieffab.cli.interrupt import listen
 from relieffab.cli.machines import machines
 from relieffab.cli.send import send
+from relieffab.cli.studio import studio
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -36,6 +37,7 @@ for command in (
     stages.verify,
     composing.compose,
     comparison.compare,
+    studio,
     send,
 ):
     app.command(command)
