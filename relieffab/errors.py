@@ -3,6 +3,8 @@
 import difflib
 from collections.abc import Iterable
 
+_WORDS = {"hint": "try"}
+
 
 class RelieffabError(Exception):
     """A fault the person at the keyboard can act on.
@@ -14,6 +16,12 @@ class RelieffabError(Exception):
     expected, found, where, hint : str, optional
         What would have been right, what was there instead, in which file or
         option, and what to do next.  Each is printed on a line of its own.
+
+    Attributes
+    ----------
+    message : str
+    parts : dict of str
+        Those of the others that were given, by name.
     """
 
     exit_status = 2
@@ -27,8 +35,10 @@ class RelieffabError(Exception):
         where: str = "",
         hint: str = "",
     ) -> None:
-        parts = {"expected": expected, "found": found, "where": where, "try": hint}
-        lines = [f"  {name}: {text}" for name, text in parts.items() if text]
+        given = {"expected": expected, "found": found, "where": where, "hint": hint}
+        self.message = message
+        self.parts = {name: text for name, text in given.items() if text}
+        lines = [f"  {_WORDS.get(name, name)}: {text}" for name, text in self.parts.items()]
         super().__init__("\n".join([message, *lines]))
 
 

@@ -72,7 +72,7 @@ def _find(kind: Kind, name: str, folders: tuple[Path, ...], where: str) -> tuple
     """Find a profile's file and the index of the folder it lies in."""
     for index, folder in enumerate(folders):
         path = folder / kind / f"{name}.toml"
-        if path.is_file():
+        if path.parent == folder / kind and path.is_file():  # a name leads nowhere else
             return path, index
     raise InputError(f"no {kind[:-1]} {name!r}", where=where, hint=suggest(name, names(kind)))
 

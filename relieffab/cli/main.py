@@ -15,6 +15,7 @@ from relieffab.cli.interrupt import listen
 from relieffab.cli.machines import machines
 from relieffab.cli.send import send
 from relieffab.cli.showing import show
+from relieffab.cli.studio import studio
 from relieffab.errors import RelieffabError
 
 app = App(
@@ -38,6 +39,7 @@ for command in (
     composing.compose,
     comparison.compare,
     batch.batch,
+    studio,
     send,
     show,
 ):

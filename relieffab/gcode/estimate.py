@@ -29,6 +29,12 @@ def estimate(program: Program, machine: Machine) -> float:
     )
 
 
+def move_ends(program: Program, machine: Machine) -> Floats:
+    """Foretell when each move of a program ends: (n,), seconds."""
+    reading = reading_seconds(program, machine)
+    return motion_ends(program.points, program.feed, machine, reading=reading, dwell=program.dwell)
+
+
 @dataclass(frozen=True)
 class Pace:
     """How a program runs on a machine.
@@ -100,20 +106,43 @@ def motion_seconds(
         Seconds.
     """
     wait = np.zeros(len(points) + 1) if dwell is None else dwell
+    ends = motion_ends(points, feed, machine, reading=reading, dwell=wait)
+    return float(ends[-1] + wait[-1])
+
+
+def motion_ends(
+    points: Floats,
+    feed: Floats,
+    machine: Machine,
+    *,
+    reading: Floats | None = None,
+    dwell: Floats,
+) -> Floats:
+    """Foretell when each move of a motion ends, as `motion_seconds` foretells the end of all.
+
+    Returns
+    -------
+    (n,) ndarray
+        Seconds; what is waited before a move is part of its time.
+    """
+    waited = np.cumsum(dwell[:-1])
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     moves = 1 + np.flatnonzero(lengths)
     if not len(moves):
-        return float(wait.sum())
+        return waited
     length = lengths[moves - 1]
     unit = (points[moves] - points[moves - 1]) / length[:, None]
     speed = np.minimum(feed[moves], _along(unit, machine.max_rate)) / 60
     acceleration = _along(unit, machine.acceleration)
     entry2 = _junctions(unit, speed, machine)
-    entry2[np.diff(np.cumsum(wait)[moves], prepend=0.0) > 0] = 0.0
+    entry2[np.diff(waited[moves], prepend=0.0) > 0] = 0.0
     blocks = machine.planner_blocks
     entry2 = np.minimum(entry2, _stopping(2 * acceleration * length, blocks))
     parse = np.full(len(moves), 1 / machine.line_rate) if reading is None else reading[moves]
-    return float(wait.sum()) + run_seconds(length, speed, acceleration, entry2, parse, blocks)
+    ends = np.concatenate([[0.0], run_ends(length, speed, acceleration, entry2, parse, blocks)])
+    done = np.zeros(len(points), np.int64)
+    done[moves] = 1
+    return waited + ends[np.cumsum(done)]
 
 
 def _along(unit: Floats, per_axis: tuple[float, float, float]) -> Floats:
@@ -160,10 +189,10 @@ def _stopping(doubled: Floats, blocks: int) -> Floats:
 
 
 @kernel
-def run_seconds(
+def run_ends(
     length: Floats, speed: Floats, acceleration: Floats, entry2: Floats, parse: Floats, blocks: int
-) -> float:
-    """Plan backwards, then run forwards through trapezoids; seconds to the end.
+) -> Floats:
+    """Plan backwards, then run forwards through trapezoids; when each move ends, seconds.
 
     Parameters
     ----------
@@ -202,4 +231,4 @@ def run_seconds(
         read += parse[k]
         start = max(read, finish[k - 1]) if k else read
         finish[k] = start + took
-    return float(finish[n - 1])
+    return finish

@@ -1,0 +1,159 @@
+"""Desk: session, worker, exporter and events of one studio, put together."""
+
+import time
+from collections.abc import Mapping
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+from relieffab.errors import InputError
+from relieffab.job import chain
+from relieffab.job.settings import Chosen
+from relieffab.progress import Progress
+from relieffab.studio import controls, looks, upload
+from relieffab.studio.children import Children
+from relieffab.studio.events import Events
+from relieffab.studio.exporting import Exporter, State
+from relieffab.studio.model import Model
+from relieffab.studio.session import Session
+from relieffab.studio.warm import warm
+from relieffab.studio.worker import Worker
+
+
+class Desk:
+    """Everything of one person's studio; `close` leaves nothing behind.
+
+    Parameters
+    ----------
+    chosen : mapping of Chosen
+        The settings to begin with.
+    output : Path
+        Where jobs go.
+    """
+
+    def __init__(self, chosen: Mapping[str, Chosen], output: Path) -> None:
+        self.session = Session(chosen)
+        self.worker = Worker()
+        self.children = Children()
+        self.events = Events()
+        self.exporter = Exporter(output, self.children, self.events.publish)
+
+    def close(self) -> None:
+        """End all work and processes, and take scratch files away."""
+        self.events.close()
+        self.exporter.close()
+        self.children.close()
+        self.worker.close()
+        self.session.close()
+
+    def warm(self) -> None:
+        """Compile what previews take, while nothing else is asked."""
+        self.worker.ask("warm", warm)
+
+    def open(self, file: Path) -> None:
+        """Open a model's file."""
+        self.session.open(upload.parse(file, self.children))
+
+    def open_scarab(self) -> None:
+        """Open the toolkit's own scarab, as a file like any other."""
+        import trimesh
+
+        from relieffab.subject import scarab
+
+        file = self.session.new_place() / "scarab.obj"
+        trimesh.Trimesh(*scarab(), process=False).export(file)
+        self.open(file)
+
+    def state(self) -> dict[str, Any]:
+        """Say what is open, and what may be chosen."""
+        return {
+            "model": _described(self.session.model),
+            "settings": self.session.texts,
+            "controls": controls.controls(),
+            **controls.listed(),
+            "export": self.exporter.state,
+            "limit_bytes": upload.LARGEST,
+        }
+
+    def mesh(self) -> bytes:
+        """Show the model."""
+        if self.session.model is None:
+            raise InputError("no model is open", hint="drop a model file on the page")
+        return looks.mesh_frame(self.session.model.shown)
+
+    def preview(self, asked: Mapping[str, Any]) -> "Future[bytes]":
+        """Show layers, and the relief if that is wanted, too."""
+        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+        wanted = asked.get("want", ["layers", "relief"])
+
+        def work(progress: Progress) -> bytes:
+            preview = self.session.preview
+            preview.seconds = {}
+            view = preview.view(ask.model, ask.job, progress)
+            solved = preview.relief(ask.model, ask.job, progress) if "relief" in wanted else None
+            facts = {
+                "ask": number,
+                "seconds": preview.seconds,
+                "notes": list(ask.model.shown.notes),
+            }
+            return looks.preview_frame(view, solved, ask.job, chain.carving_of(ask.job), facts)
+
+        return self.worker.ask("preview", work)
+
+    def panel(self, asked: Mapping[str, Any]) -> "Future[bytes]":
+        """Show the panel."""
+        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+
+        def work(progress: Progress) -> bytes:
+            panel = self.session.preview.panel(ask.model, ask.job, progress)
+            return looks.panel_frame(panel, {"ask": number})
+
+        return self.worker.ask("panel", work)
+
+    def toolpaths(self, asked: Mapping[str, Any]) -> "Future[bytes]":
+        """Show programs, what they leave and how long they take."""
+        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+
+        def work(progress: Progress) -> bytes:
+            start = time.perf_counter()
+            solved = self.session.preview.relief(ask.model, ask.job, progress)
+            tried = self.session.trial.carry_out(solved, ask.job, progress)
+            seconds = {"toolpaths": time.perf_counter() - start}
+            return looks.toolpaths_frame(tried, {"ask": number, "seconds": seconds})
+
+        return self.worker.ask("toolpaths", work, report=self._reporter("toolpaths"))
+
+    def carved(self, at: float) -> "Future[bytes]":
+        """Show the stock at a moment of the last programs."""
+        return self.worker.ask(
+            "carved", lambda _: looks.carved_frame(self.session.trial.carved(at), at)
+        )
+
+    def _reporter(self, name: str) -> Progress:
+        last = 0.0
+
+        def report(stage: str, done: float, total: float, unit: str = "") -> None:
+            nonlocal last
+            if (now := time.monotonic()) - last > 0.1:
+                last = now
+                fact = {"stage": stage, "done": done, "total": total, "unit": unit}
+                self.events.publish({name: fact})
+
+        return report
+
+    def export(self, settings: Mapping[str, Any]) -> State:
+        """Begin the job."""
+        ask = self.session.settle(settings)
+        chain.check(ask.job)
+        return self.exporter.start(self.session.job_file(), ask.model.file)
+
+
+def _described(model: Model | None) -> dict[str, Any] | None:
+    if model is None:
+        return None
+    return {
+        "name": model.name,
+        "triangles": model.triangles,
+        "notes": list(model.shown.notes),
+        "up": model.up,
+    }

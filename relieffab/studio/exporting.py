@@ -1,0 +1,182 @@
+"""Exporting: a job in a process of its own, told of, cancelled, whole or not at all."""
+
+import json
+import shutil
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from relieffab.errors import InputError, RelieffabError
+from relieffab.job.folder import ALL, check_folder, finished_together
+from relieffab.studio.children import Children, end
+
+JOB_FILE = "job.toml"
+
+State = dict[str, Any]
+
+
+class CancelledError(Exception):
+    """The person wants no more of it."""
+
+
+class BusyError(InputError):
+    """One job at a time."""
+
+
+class Exporter:
+    """At most one job at a time.
+
+    Parameters
+    ----------
+    output : Path
+        Below it each job gets a folder.
+    children : Children
+    publish : callable
+        Told of every new state.
+    """
+
+    def __init__(self, output: Path, children: Children, publish: Callable[[State], None]) -> None:
+        self.output = output
+        self.state: State | None = None
+        self.folder: Path | None = None
+        self._children = children
+        self._publish = publish
+        self._cancelled = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._process: Any = None
+
+    @property
+    def running(self) -> bool:
+        """Whether a job is being made."""
+        return self._thread is not None and self._thread.is_alive()
+
+    def start(self, job_file: str, model: Path) -> State:
+        """Begin a job.
+
+        Parameters
+        ----------
+        job_file : str
+            Text of a job file that names the model beside it.
+        model : Path
+            The model's file.
+
+        Raises
+        ------
+        BusyError
+            If one is being made.
+        InputError
+            If there can be no folder for it.
+        """
+        if self.running:
+            raise BusyError("a job is being made", hint="wait for it, or cancel it")
+        folder = self._free(model.stem)
+        check_folder(folder, overwrite=False)
+        self._cancelled.clear()
+        self.folder = folder
+        state = self._tell({"state": "running", "stage": "start", "done": 0, "total": 1})
+        self._thread = threading.Thread(
+            target=self._carry_out, args=(job_file, model, folder), name="export", daemon=True
+        )
+        self._thread.start()
+        return state
+
+    def cancel(self) -> None:
+        """Stop the job, if one is being made; nothing of it stays."""
+        self._cancelled.set()
+        if self._process is not None:
+            end(self._process)
+
+    def close(self) -> None:
+        """Cancel, and wait until nothing is left."""
+        self.cancel()
+        if self._thread:
+            self._thread.join(timeout=10.0)
+
+    def file(self, name: str) -> Path:
+        """Find a file of the finished job.
+
+        Raises
+        ------
+        InputError
+            If the job has none of that name.
+        """
+        state = self.state
+        if state and state["state"] == "done" and self.folder:
+            for part in state["files"]:
+                if part["name"] == name:
+                    return self.folder / name
+        raise InputError("the job has no such file", found=repr(name)[:80])
+
+    def _free(self, stem: str) -> Path:
+        number, folder = 1, self.output / stem
+        while folder.exists():
+            number += 1
+            folder = self.output / f"{stem}-{number}"
+        return folder
+
+    def _tell(self, state: State) -> State:
+        self.state = state
+        self._publish({"export": state})
+        return state
+
+    def _carry_out(self, job_file: str, model: Path, folder: Path) -> None:
+        try:
+            with finished_together(folder, ALL) as scratch:
+                self._make(job_file, model, scratch)
+        except CancelledError:
+            self._tell({"state": "cancelled"})
+        except RelieffabError as error:
+            self._tell({"state": "failed", "error": {"message": error.message, **error.parts}})
+        except OSError as error:
+            where = {"where": str(error.filename)} if error.filename else {}
+            fault = {"message": error.strerror or str(error), **where}
+            self._tell({"state": "failed", "error": fault})
+        else:
+            self._tell(
+                {
+                    "state": "done",
+                    "folder": str(folder),
+                    "files": _listed(folder),
+                    "command": f"relieffab make {folder / JOB_FILE} -o FOLDER",
+                }
+            )
+
+    def _make(self, job_file: str, model: Path, scratch: Path) -> None:
+        (scratch / JOB_FILE).write_text(job_file, encoding="utf-8")
+        shutil.copyfile(model, scratch / model.name)
+        made = scratch / "made"
+        self._follow([str(scratch / JOB_FILE), str(made)])
+        for path in sorted(made.iterdir()):
+            path.replace(scratch / path.name)
+        made.rmdir()
+
+    def _follow(self, arguments: list[str]) -> None:
+        """Run the job and pass on what it says."""
+        fault: dict[str, str] | None = None
+        with self._children.child("relieffab.studio.making", arguments) as process:
+            self._process = process
+            if self._cancelled.is_set():
+                raise CancelledError
+            for line in process.stdout or ():
+                told = json.loads(line)
+                fault = told.get("error", fault)
+                if "stage" in told:
+                    self._tell({"state": "running", **told})
+            status, said = process.wait(), (process.stderr.read() if process.stderr else b"")
+        self._process = None
+        if self._cancelled.is_set():
+            raise CancelledError
+        if fault:
+            raise InputError(fault.pop("message"), **fault)
+        if status != 0:
+            last = said.decode(errors="replace").strip().splitlines()[-1:]
+            raise InputError("the job ended before it was done", found="".join(last)[:300])
+
+
+def _listed(folder: Path) -> list[dict[str, Any]]:
+    return [
+        {"name": str(path.relative_to(folder)), "bytes": path.stat().st_size}
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    ]

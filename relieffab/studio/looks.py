@@ -1,0 +1,168 @@
+"""Looks: what was worked out, as frames for the page."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relieffab.cutter import Cutter
+from relieffab.gcode.slab import Slab
+from relieffab.grid import Grid
+from relieffab.job.settings import Job
+from relieffab.layers.mesh import Mesh
+from relieffab.layers.model import Layers, Stroke
+from relieffab.panel.model import Panel
+from relieffab.relief.targets import Carving, line_depth
+from relieffab.relief.window import figure_size
+from relieffab.studio.frames import pack
+from relieffab.studio.preview import Solved, View
+from relieffab.studio.trial import Run, Tried
+
+KINDS = ("rapid", "rough", "finish", "lines", "programs")
+
+
+def mesh_frame(mesh: Mesh) -> bytes:
+    """Show a model, in its own units."""
+    arrays = {
+        "positions": mesh.vertices.astype(np.float32),
+        "indices": mesh.faces.astype(np.uint32),
+    }
+    return pack({"triangles": len(mesh.faces)}, arrays)
+
+
+def _bytes(image: NDArray[np.float64]) -> NDArray[np.uint8]:
+    return np.rint(255 * np.clip(image, 0.0, 1.0)).astype(np.uint8)
+
+
+def _strokes(strokes: tuple[Stroke, ...], layers: Layers) -> dict[str, NDArray[Any]]:
+    """Lay strokes out one after the other; closed ones end where they begin."""
+    starts, parts = [0], [np.zeros((0, 4), np.float32)]
+    for stroke in strokes:
+        order = np.arange(len(stroke.points) + stroke.closed) % len(stroke.points)
+        points = stroke.points[order]
+        row, col = layers.grid.to_index(*points.T)
+        i = np.clip(row, 0, layers.grid.rows - 1).astype(int)
+        j = np.clip(col, 0, layers.grid.cols - 1).astype(int)
+        z = layers.depth[i, j]
+        parts.append(np.column_stack([points, z, stroke.strength[order]]).astype(np.float32))
+        starts.append(starts[-1] + len(points))
+    return {
+        "stroke_points": np.concatenate(parts),
+        "stroke_starts": np.array(starts, np.uint32),
+    }
+
+
+def _layers(view: View) -> dict[str, NDArray[Any]]:
+    layers = view.layers
+    seen = layers.depth[layers.mask]
+    near = (layers.depth - seen.min()) / max(float(np.ptp(seen)), 1e-12)
+    return {
+        "mask": layers.mask.astype(np.uint8),
+        "depth": _bytes(np.where(layers.mask, near, 0.0)),
+        "lambert": _bytes(layers.shading.mean(axis=0)),
+        "lines": _bytes(1.0 - layers.lines),
+        **_strokes(layers.strokes, layers),
+    }
+
+
+def _place(grid: Grid) -> dict[str, Any]:
+    return {"pitch_mm": grid.pitch, "origin_mm": list(grid.origin)}
+
+
+def preview_frame(
+    view: View, solved: Solved | None, job: Job, carving: Carving, facts: dict[str, Any]
+) -> bytes:
+    """Show layers, and the relief where it was solved for."""
+    arrays = _layers(view)
+    if solved:
+        arrays["heights"] = solved.relief.heights.astype(np.float32)
+    form = carving.form_length or 0.02 * max(figure_size(view.layers))
+    header = {
+        **facts,
+        **_place(view.layers.grid),
+        "size_mm": list(job.size),
+        "thickness_mm": job.thickness,
+        "depth_mm": job.depth,
+        "matrix": view.part["matrix"],
+        "worked_out": {
+            "form_length": f"{form:.3g}mm",
+            "line_depth": f"{line_depth(carving):.3g}mm",
+            "azimuth": f"{view.part['azimuth_deg']:g}deg",
+            "elevation": f"{view.part['elevation_deg']:g}deg",
+            "up": view.part["up"],
+        },
+    }
+    return pack(header, arrays)
+
+
+def panel_frame(panel: Panel, facts: dict[str, Any]) -> bytes:
+    """Show a panel."""
+    arrays = {
+        "positions": panel.vertices.astype(np.float32),
+        "indices": panel.faces.astype(np.uint32),
+    }
+    return pack({**facts, "relief": True}, arrays)
+
+
+def carved_frame(slab: Slab, at: float) -> bytes:
+    """Show a stock as it is at a moment."""
+    return pack({"at": at, **_place(slab.grid)}, {"heights": slab.heights})
+
+
+def _kinds(run: Run) -> NDArray[np.uint8]:
+    own = KINDS.index(run.name) if run.name in KINDS else KINDS.index("programs")
+    return np.where(run.rapid, 0, own).astype(np.uint8)
+
+
+def _outline(cutter: Cutter) -> list[list[float]]:
+    """Half the cutter's silhouette, from the tip upwards, mm."""
+    reach = np.linspace(0.0, cutter.radius, 13)
+    heights = np.asarray(cutter.profile(reach), float)
+    sides = [[cutter.radius, float(max(cutter.flute_length, heights[-1]))]]
+    return [[float(r), float(z)] for r, z in zip(reach, heights, strict=True)] + sides
+
+
+def toolpaths_frame(tried: Tried, facts: dict[str, Any]) -> bytes:
+    """Show programs, and what simulation found."""
+    verdict = tried.verdict
+    moves = [np.column_stack([run.points, run.ends]) for run in tried.runs]
+    owner = [np.full(len(run.points), k, np.uint8) for k, run in enumerate(tried.runs)]
+    arrays = {
+        "moves": np.concatenate(moves).astype(np.float32),
+        "kinds": np.concatenate([_kinds(run) for run in tried.runs]),
+        "program_of": np.concatenate(owner),
+        "deviation": np.where(verdict.figure, verdict.deviation, np.nan).astype(np.float32),
+    }
+    header = {
+        **facts,
+        **_place(verdict.grid),
+        "kinds": list(KINDS),
+        "programs": [_program(run) for run in tried.runs],
+        "seconds_total": tried.states.seconds,
+        "warnings": [*tried.notes, *verdict.findings],
+        "deviation_mm": {
+            "gouge": verdict.gouge_mm,
+            "excess_p99": verdict.excess_p99_mm,
+            "limit": verdict.tolerance_mm,
+        },
+        "within_tolerance": verdict.within_tolerance,
+        "air_cutting": verdict.air_cutting,
+    }
+    return pack(header, arrays)
+
+
+def _program(run: Run) -> dict[str, Any]:
+    part = run.part
+    return {
+        "file": part["file"],
+        "name": run.name,
+        "cutter": run.cutter.name,
+        "seconds": part["seconds"],
+        "lines": part["lines"],
+        "cut_mm": part["cut_mm"],
+        "diameter_mm": run.cutter.diameter,
+        "tip": run.cutter.shape,
+        "profile": _outline(run.cutter),
+        "rpm": part["rpm"],
+        "placing": part.get("placing", ""),
+    }

@@ -1,0 +1,3 @@
+// The one door to three.js.
+
+export * from "./vendor/three.module.min.js";

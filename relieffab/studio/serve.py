@@ -1,0 +1,93 @@
+"""Serve: the studio on this computer's own address, until it is interrupted."""
+
+import errno
+import logging
+import socket
+import webbrowser
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from relieffab.errors import InputError
+from relieffab.job.settings import Chosen
+from relieffab.studio.app import make_app
+from relieffab.studio.desk import Desk
+from relieffab.studio.guard import Guard, new_token
+
+HOST = "127.0.0.1"
+BACKLOG = 64
+
+
+def listening(port: int) -> socket.socket:
+    """Take a port of the loopback; 0 for any.
+
+    Raises
+    ------
+    InputError
+        If another program has it, or it may not be taken.
+    """
+    taken = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        taken.bind((HOST, port))
+        taken.listen(BACKLOG)
+    except (OSError, OverflowError) as fault:
+        taken.close()
+        used = isinstance(fault, OSError) and fault.errno == errno.EADDRINUSE
+        raise InputError(
+            f"port {port} is in use by another program" if used else f"port {port} cannot be taken",
+            found="" if used else str(fault),
+            where="--port",
+            hint="another --port, or 0 for any that is free",
+        ) from fault
+    return taken
+
+
+def serve(
+    chosen: Mapping[str, Chosen],
+    output: Path,
+    *,
+    port: int,
+    browser: bool,
+    announce: Callable[[str], None],
+) -> None:
+    """Serve one studio until it is interrupted.
+
+    Parameters
+    ----------
+    chosen : mapping of Chosen
+        Settings to begin with; a model among them is opened first.
+    output : Path
+    port : int
+    browser : bool
+        Whether to open one.
+    announce : callable
+        Told the address.
+
+    Raises
+    ------
+    InputError
+        If the port cannot be taken or the model cannot be read.
+    """
+    import uvicorn
+
+    with listening(port) as taken:
+        port, token = taken.getsockname()[1], new_token()
+        desk = Desk(chosen, output)
+        try:
+            if chosen["model"].value is not None:
+                desk.open(Path(chosen["model"].value).resolve())
+            address = f"http://{HOST}:{port}/{token}/"
+            guarded = Guard(make_app(desk), token=token, port=port)
+            config = uvicorn.Config(
+                guarded, log_level=logging.WARNING, access_log=False, lifespan="off",
+                timeout_graceful_shutdown=1, server_header=False,
+            )  # fmt: skip
+            announce(address)
+            desk.warm()
+            if browser:
+                webbrowser.open(address)
+            uvicorn.Server(config).run(sockets=[taken])
+        except KeyboardInterrupt:
+            return
+        finally:
+            desk.close()

@@ -1,0 +1,108 @@
+"""Session: what one person has open, and what was worked out of it."""
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from relieffab.errors import InputError
+from relieffab.job import chain
+from relieffab.job.settings import Chosen, Job, job_of, resolve
+from relieffab.studio import controls
+from relieffab.studio.model import Model
+from relieffab.studio.preview import Preview
+from relieffab.studio.trial import Trial
+
+
+@dataclass(frozen=True)
+class Ask:
+    """What a person looks at: a model and the settings for it."""
+
+    model: Model
+    job: Job
+
+
+class Session:
+    """A model, settings, and what was worked out.
+
+    Parameters
+    ----------
+    chosen : mapping of Chosen
+        What the settings are to begin with.
+    """
+
+    def __init__(self, chosen: Mapping[str, Chosen]) -> None:
+        self.texts = {name: one.text for name, one in chosen.items() if name in controls.OFFERED}
+        self.model: Model | None = None
+        self.preview = Preview()
+        self.trial = Trial()
+        self.scratch = Path(tempfile.mkdtemp(prefix="relieffab-studio-"))
+
+    def close(self) -> None:
+        """Take away what lies on the disk."""
+        shutil.rmtree(self.scratch, ignore_errors=True)
+
+    def open(self, model: Model) -> None:
+        """Take a model in place of the one before."""
+        before, self.model = self.model, model
+        if before and before.file.parent.parent == self.scratch:
+            shutil.rmtree(before.file.parent, ignore_errors=True)
+
+    def new_place(self) -> Path:
+        """Make a folder for a model file."""
+        return Path(tempfile.mkdtemp(dir=self.scratch))
+
+    def settle(self, given: Mapping[str, Any]) -> Ask:
+        """Take settings as the page has them, and say what is asked with them.
+
+        Raises
+        ------
+        InputError
+            If there is no model, or a setting is none or cannot be read; the settings
+            stay as they were then.
+        """
+        if self.model is None:
+            raise InputError("no model is open", hint="drop a model file on the page")
+        texts = self.read(given)
+        job = job_of(resolve([("studio", texts)]))
+        self.texts = texts
+        up = job.up or self.model.up
+        return Ask(self.model, replace(job, model=self.model.name, up=up))
+
+    def read(self, given: Mapping[str, Any]) -> dict[str, str]:
+        """Lay settings over those there are.
+
+        Raises
+        ------
+        InputError
+            If one is not to be chosen here.
+        """
+        for name, text in given.items():
+            if name not in controls.OFFERED:
+                raise InputError("there is no such setting in the studio", found=repr(name)[:60])
+            if not isinstance(text, str) or len(text) > 200:
+                raise InputError(f"{name} is not a text", found=repr(text)[:60], where=name)
+        return {**self.texts, **given}
+
+    def job_file(self) -> str:
+        """Write the job file that makes what is seen, from the model beside it."""
+        if self.model is None:
+            raise InputError("no model is open", hint="drop a model file on the page")
+        lines = ["# relieffab make job.toml -o FOLDER", "", f'model = "{self.model.name}"']
+        lines += [f"{name} = {_quoted(text)}" for name, text in self.texts.items()]
+        return "\n".join(lines) + "\n"
+
+    def check(self) -> None:
+        """Refuse a job that can be seen to fail."""
+        chain.check(job_of(resolve([("studio", self.texts)])))
+
+
+def _quoted(text: str) -> str:
+    """Write a basic string of TOML."""
+    escaped = "".join(
+        f"\\u{ord(letter):04x}" if letter in '"\\' or not letter.isprintable() else letter
+        for letter in text
+    )
+    return f'"{escaped}"'
