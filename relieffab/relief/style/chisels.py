@@ -50,15 +50,17 @@ class Chisel:
 
 CHISELS = {
     # A wide edge pushed in short strokes: each ends where it breaks out.
-    "flat": Chisel("ball-6", 1.6, 0.12, length=2.6, entry=1.8, leave=0.5),
+    "flat": Chisel("ball-3.175", 1.2, 0.1, length=3.0, entry=2.2, leave=0.4),
     # Long round furrows that meet in ridges.
     "gouge": Chisel("ball-2", 1.0, 0.13, length=10.0, entry=2.5, leave=1.2, gap=0.3),
     # Deep furrows far apart, driven blow by blow.
-    "point": Chisel("vee-90", 1.5, 0.3, length=7.0, entry=0.8, leave=0.5, gap=0.5, chatter=0.35),
+    "point": Chisel("vee-90", 1.1, 0.3, length=9.0, entry=1.0, leave=0.5, gap=0.4, chatter=0.2),
     # Teeth side by side: furrows in patches, each from where the hand then stood.
     "claw": Chisel("tapered-ball-1", 0.8, 0.12, entry=0.8, leave=0.8, patch=9.0, turn=14.0),
     # Many short scratches, none beside the end of another.
-    "rasp": Chisel("tapered-ball-0.5", 0.6, 0.09, length=3.5, entry=1.2, leave=1.2, gap=0.8),
+    "rasp": Chisel(
+        "tapered-ball-0.5", 0.5, 0.08, 5.0, entry=1.5, leave=1.5, gap=0.6, patch=8, turn=8
+    ),
     # A burin's lines around the form, deep in its shadows.
     "hatch": Chisel("vee-90", 0.9, 0.28, around=True, tone=True),
 }

@@ -40,7 +40,7 @@ class _Cells(NamedTuple):
 
 
 def bending(layers: Layers, clear: Bools) -> tuple[Floats, Floats]:
-    """Derivative of the normals across the panel, from pixels that are clear of lines.
+    """Differentiate the normals across the panel, at pixels that are clear of lines.
 
     Returns
     -------

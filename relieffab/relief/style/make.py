@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,26 +10,29 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from relieffab.cutter import Cutter
+from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.relief.groove import inked
 from relieffab.relief.model import Relief, inner_nodes, nodes_of, pixel_slopes
-from relieffab.relief.style.chisels import Chisel
 from relieffab.relief.style.field import fixed_field, form_field
 from relieffab.relief.style.hatch import darkness
 from relieffab.relief.style.model import Marks, Style, mark_width
-from relieffab.relief.style.names import NONE, PECKED
-from relieffab.relief.style.peck import pecks
+from relieffab.relief.style.names import NONE
+from relieffab.relief.style.peck import UNEVEN, pecks
+from relieffab.relief.style.scatter import scatter
 from relieffab.relief.style.streamlines import Spacing, streamlines
-from relieffab.relief.style.strokes import strokes
+from relieffab.relief.style.strokes import SHORTEST, strokes
 from relieffab.relief.style.texture import Stroke, textured
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
 
 STEEP = 1.2  # slope of walls and occlusions: no stroke climbs them
 LINE = 0.05  # of a line's depth, where its groove begins
 BARE = 0.02  # mm, the shallowest mark
 BESIDE = 0.3  # mm of level ground between pecks and the figure
+BORDER = 2.5  # mm of level ground at the edge of the panel
 SEED = 1
 
 
@@ -39,15 +43,12 @@ def clear_of_lines(smooth: Relief, layers: Layers) -> Bools:
     return inner_nodes(layers.mask) & ~grooved & ~nodes_of(steep)
 
 
-def _patches(room: Floats, width: float, chance: np.random.Generator) -> NDArray[np.int64]:
-    """Part the nodes into patches about so many pixels wide."""
-    from scipy.stats import qmc
-
-    sides = tuple(np.array(room.shape, float))
-    disk = qmc.PoissonDisk(2, radius=width, l_bounds=(0, 0), u_bounds=sides, rng=chance)
-    tree = cKDTree(disk.fill_space())
-    nodes = np.stack(np.indices(room.shape), axis=-1).reshape(-1, 2)
-    return tree.query(nodes)[1].reshape(room.shape).astype(np.int64)
+def _patches(shape: tuple[int, int], width: float, chance: np.random.Generator) -> Ints:
+    """Part the nodes into patches about so many pixels wide, each around a place at random."""
+    places = scatter(np.ones(shape, bool), width, chance)
+    nodes = np.stack(np.indices(shape), axis=-1).reshape(-1, 2)
+    nearest: Ints = cKDTree(places).query(nodes)[1].reshape(shape).astype(np.int64)
+    return nearest
 
 
 def _field(layers: Layers, style: Style, clear: Bools) -> Floats:
@@ -93,11 +94,11 @@ def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]
     field, patch = _field(layers, style, clear), None
     apart = chisel.spacing / pitch
     if chisel.patch:
-        patch = _patches(room, chisel.patch * apart, chance)
+        patch = _patches(room.shape, chisel.patch * apart, chance)
         turns = np.radians(chisel.turn) * chance.uniform(-1, 1, int(patch.max()) + 1)
         field = field * np.exp(2j * turns[patch])
     least = _least_room(style.tool)
-    lines = streamlines(field, room, Spacing(apart, 1.5 * apart, least / pitch), patch)
+    lines = streamlines(field, room, Spacing(apart, SHORTEST * apart, least / pitch), patch)
     found = strokes(lines, chisel, apart, chance)
     dark = darkness(layers, chisel.spacing) if chisel.tone else None
     return _held(found, room, pitch, style.tool, dark)
@@ -108,15 +109,22 @@ def _least_room(cutter: Cutter) -> float:
     return mark_width(cutter, BARE) / 2
 
 
+def _bordered(grid: Grid) -> Bools:
+    """Nodes that a border parts from the edge of the grid."""
+    inner = np.zeros(grid.node_shape, bool)
+    wide = ceil(BORDER / grid.pitch)
+    inner[wide:-wide, wide:-wide] = True
+    return inner
+
+
 def ground_strokes(smooth: Relief, ground: Bools, style: Style) -> list[Stroke]:
     """Scatter pecks over the ground, whole ones, clear of the figure and of its bounds."""
     chisel, pitch = style.chisel, smooth.grid.pitch
     figure = nodes_of(smooth.mask) | (smooth.heights < 0)
     beside = ndimage.distance_transform_edt(~figure) * pitch >= BESIDE
-    room = ndimage.distance_transform_edt(np.pad(ground & beside, 1))[1:-1, 1:-1]
-    least = mark_width(style.tool, chisel.depth) / 2
-    chance = np.random.default_rng(SEED)
-    return pecks(room, chisel.spacing / pitch, least / pitch, chisel.depth, chance)
+    room = ndimage.distance_transform_edt(np.pad(ground & beside, 1))[1:-1, 1:-1] * pitch
+    whole = room >= mark_width(style.tool, (1 + UNEVEN) * chisel.depth) / 2
+    return pecks(whole, chisel.spacing / pitch, chisel.depth, np.random.default_rng(SEED))
 
 
 def carve_marks(
@@ -134,7 +142,8 @@ def carve_marks(
     depth : float
         Bound of the relief with its marks, mm.
     ground : (rows + 1, cols + 1) ndarray of bool, optional
-        Nodes that a pecked ground may take; all but the figure if not given.
+        Nodes that a pecked ground may take; all but a border if not given.  The figure
+        and what is beside it stay free.
 
     Returns
     -------
@@ -150,15 +159,11 @@ def carve_marks(
     """
     style.check(depth, smooth.grid.pitch)
     found = [] if style.marks == NONE else figure_strokes(smooth, layers, style)
-    if style.ground == PECKED:
-        everywhere = np.ones(smooth.grid.node_shape, bool)
-        found = found + ground_strokes(smooth, everywhere if ground is None else ground, style)
-    doubled = [
-        (np.repeat(p, 2, axis=0), np.repeat(d, 2)) if len(p) == 1 else (p, d) for p, d in found
-    ]
-    heights = textured(smooth.heights, smooth.grid.pitch, doubled, style.tool, depth)
-    lines = tuple(
-        np.column_stack(smooth.grid.to_xy(places[:, 0], places[:, 1])) for places, _ in doubled
-    )
+    if style.pecked:
+        found = found + ground_strokes(
+            smooth, _bordered(smooth.grid) if ground is None else ground, style
+        )
+    heights = textured(smooth.heights, smooth.grid.pitch, found, style.tool, depth)
+    lines = tuple(np.column_stack(smooth.grid.to_xy(*places.T)) for places, _ in found)
     relief = replace(smooth, heights=heights, depth=depth)
     return relief, Marks(style.tool, replace(smooth, depth=depth), lines)

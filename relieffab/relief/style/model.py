@@ -66,6 +66,11 @@ class Style:
         return self.marks == NONE and self.ground == PLAIN
 
     @property
+    def pecked(self) -> bool:
+        """Whether the ground around the figure is pecked."""
+        return self.ground == PECKED
+
+    @property
     def headroom(self) -> float:
         """How much of the relief's depth the marks on the figure take, mm."""
         return 0.0 if self.marks == NONE else self.chisel.depth

@@ -10,7 +10,7 @@ from relieffab.compiled import kernel
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-TEST = 0.7  # of the separation: a line ends where it comes so close to another
+TEST = 0.8  # of the separation: a line ends where it comes so close to another
 STEPS = 5  # of a line within a separation
 SHARPEST = 0.5  # cosine of the sharpest turn within a step
 

@@ -1,6 +1,7 @@
 """Lines broken into strokes of the hand: where each begins and ends, and how deep it goes."""
 
 from collections.abc import Sequence
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,8 @@ from relieffab.relief.style.chisels import Chisel
 Floats = NDArray[np.float64]
 
 EVEN = 0.3  # share by which the lengths of strokes differ from their mean, at most
-SHORTEST = 0.8  # spacings: what is left of a line and shorter is no stroke
+BLOW = 2.0  # spacings from blow to blow
+SHORTEST = 1.8  # spacings: what is left of a line and shorter is no stroke
 
 
 def parts(length: float, chisel: Chisel, chance: np.random.Generator) -> list[tuple[float, float]]:
@@ -69,7 +71,7 @@ def depths(along: Floats, chisel: Chisel) -> Floats:
     fit = min(1.0, length / ramps) if ramps > 0 else 1.0
     since, until = along - along[0], along[-1] - along
     deep = rise(since / max(chisel.entry * fit, 1e-9)) * rise(until / max(chisel.leave * fit, 1e-9))
-    blows = 1 - chisel.chatter * 0.5 * (1 - np.cos(2 * np.pi * (since - chisel.entry * fit)))
+    blows = 1 - chisel.chatter * 0.5 * (1 - np.cos(2 * np.pi * (since - chisel.entry * fit) / BLOW))
     return chisel.depth * deep * blows
 
 
@@ -97,8 +99,8 @@ def strokes(
         steps = np.hypot(*np.diff(line, axis=0).T) / pixels
         at = np.concatenate([[0.0], np.cumsum(steps)])
         for start, end in parts(float(at[-1]), chisel, chance):
-            inner = at[(at > start) & (at < end)]
-            along = np.concatenate([[start], inner, [end]])
+            # As close as pixels, or the bends between samples show as facets.
+            along = np.linspace(start, end, ceil((end - start) * pixels) + 1)
             places = np.column_stack([np.interp(along, at, line[:, k]) for k in (0, 1)])
             found.append((places, depths(along, chisel)))
     return found

@@ -14,7 +14,23 @@ Floats = NDArray[np.float64]
 Stroke = tuple[Floats, Floats]
 
 STEEPEST = 0.6  # of the tip's radius: so high above its lowest point it still touches a slope
+EVEN = 3.0  # samples of a stroke, about pixels
+GRAIN = 0.005  # mm
 SAMPLES = 512  # of the tip's profile
+
+
+def tip_table(cutter: Cutter, deepest: float) -> tuple[Floats, float]:
+    """Sample as much of a cutter's profile as touches slopes under marks so deep, mm.
+
+    Returns
+    -------
+    table : (n,) ndarray
+        Heights above the tip at even distances from the axis, mm.
+    reach : float
+        The last of those distances, mm.
+    """
+    reach = min(reach_of(cutter.profile, deepest + STEEPEST * cutter.tip_radius), cutter.radius)
+    return cutter.profile(np.linspace(0.0, reach, SAMPLES)), reach
 
 
 def _finer(heights: Floats) -> Floats:
@@ -32,6 +48,15 @@ def _coarser(fine: Floats) -> Floats:
     for axis in (0, 1):
         fine = ndimage.convolve1d(fine, [0.25, 0.5, 0.25], axis=axis, mode="nearest")
     return fine[::2, ::2]
+
+
+def _steady(z: Floats) -> Floats:
+    """Even out what crossing a lattice puts into a way over it, and no more.
+
+    A stroke that drifts over columns of nodes would show each of them as a step.
+    """
+    even = ndimage.gaussian_filter1d(z, EVEN, mode="nearest")
+    return np.clip(even, z - GRAIN, z + GRAIN)
 
 
 def textured(
@@ -64,13 +89,12 @@ def textured(
     if not strokes:
         return smooth
     deepest = max(float(deep.max()) for _, deep in strokes)
-    reach = min(reach_of(cutter.profile, deepest + STEEPEST * cutter.tip_radius), cutter.radius)
-    table = cutter.profile(np.linspace(0.0, reach, SAMPLES))
+    table, reach = tip_table(cutter, deepest)
     tips = lowest_tips(smooth, pitch, cutter.profile)
     fine = _finer(smooth)
     left = fine.copy()
     for places, deep in strokes:
-        z = ndimage.map_coordinates(tips, places.T, order=1, mode="nearest") - deep
+        z = _steady(ndimage.map_coordinates(tips, places.T, order=1, mode="nearest")) - deep
         row, col = np.ascontiguousarray(2 * places.T)
         sweep(row, col, np.minimum(-z, depth), table, reach, pitch / 2, left)
     return np.clip(smooth - _coarser(fine - left), -depth, smooth)
