@@ -22,6 +22,7 @@ KEYS = (
     "settings",
     "reliefs",
     "relief",
+    "style",
     *SOLIDS,
     "stock",
     "template",

@@ -16,6 +16,8 @@ SECONDARY = (
 )
 """Lines that tell how a form bends."""
 NAMES = (*PRINCIPAL, *SECONDARY)
+MARK = "mark"
+"""A chisel's way over the surface: no line of the drawing."""
 USUAL = (*PRINCIPAL, "suggestive")
 
 

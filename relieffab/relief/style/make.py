@@ -46,7 +46,7 @@ def clear_of_lines(smooth: Relief, layers: Layers) -> Bools:
 def _patches(shape: tuple[int, int], width: float, chance: np.random.Generator) -> Ints:
     """Part the nodes into patches about so many pixels wide, each around a place at random."""
     places = scatter(np.ones(shape, bool), width, chance)
-    nodes = np.stack(np.indices(shape), axis=-1).reshape(-1, 2)
+    nodes = np.argwhere(np.ones(shape, bool))
     nearest: Ints = cKDTree(places).query(nodes)[1].reshape(shape).astype(np.int64)
     return nearest
 
@@ -65,10 +65,10 @@ def _held(
     out = []
     for places, deep in found:
         at = ndimage.map_coordinates(room, places.T, order=1, mode="nearest") * pitch
-        deep = np.minimum(deep, cutter.profile(at))
+        held = np.minimum(deep, cutter.profile(at))
         if dark is not None:
-            deep = deep * ndimage.map_coordinates(dark, places.T, order=1, mode="nearest")
-        out += _runs(places, deep)
+            held *= ndimage.map_coordinates(dark, places.T, order=1, mode="nearest")
+        out += _runs(places, held)
     return out
 
 

@@ -51,7 +51,7 @@ class Measured:
 
 
 def _across(cut: Floats, sigma: float) -> Floats:
-    """Unit vectors square to the furrows, rows and columns, by the structure tensor."""
+    """Find unit vectors square to the furrows, rows and columns, by the structure tensor."""
     down, across = np.gradient(cut)
     dd, da, aa = (
         ndimage.gaussian_filter(part, sigma) for part in (down**2, down * across, across**2)

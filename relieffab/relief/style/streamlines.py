@@ -45,7 +45,7 @@ def _at(image, row, col):  # type: ignore[no-untyped-def]
 
 @kernel
 def _way(field, row, col, down, across):  # type: ignore[no-untyped-def]
-    """Unit direction (rows, columns) at a place, to the side of the one given."""
+    """Give the direction (rows, columns) at a place, to the side of the one given."""
     angle = 0.5 * np.angle(_at(field, row, col))
     # Rows count against Y.
     a, b = -np.sin(angle), np.cos(angle)
@@ -77,9 +77,9 @@ def _close(places, head, following, size, row, col, limit, line, count):  # type
             k = head[a, b]
             while k >= 0:
                 dr, dc = places[k, 0] - row, places[k, 1] - col
-                if dr * dr + dc * dc < square:
-                    if places[k, 2] != line or abs(places[k, 3] - count) > 3 * STEPS:
-                        return True
+                other = places[k, 2] != line or abs(places[k, 3] - count) > 3 * STEPS
+                if other and dr * dr + dc * dc < square:
+                    return True
                 k = following[k]
     return False
 
