@@ -47,6 +47,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "relief.make": ["make_relief"],
         "relief.png": ["to_png"],
         "relief.store": ["read_relief", "to_tiff"],
+        "relief.style.make": ["carve_marks"],
+        "relief.style.model": ["Marks", "Style"],
         "relief.targets": ["Carving"],
         "stock": ["Stock"],
         "subject": ["scarab"],

@@ -5,7 +5,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from relieffab.catalogue.rows import DONE, FAILED, KEPT, WAITING
-from relieffab.job.page import clock
+from relieffab.job.sheet.words import clock
 
 if TYPE_CHECKING:
     from jinja2 import Template

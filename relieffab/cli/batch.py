@@ -118,7 +118,7 @@ def line(row: Mapping[str, Any]) -> str:
     if row["status"] == "failed":
         return f"{head}  {row['message'].splitlines()[0]}"
     from relieffab.catalogue.index import verdict
-    from relieffab.job.page import clock
+    from relieffab.job.sheet.words import clock
 
     facts = ["{:g} x {:g} mm".format(*row["size_mm"]), verdict(row)]
     if row["cutting_s"] is not None:

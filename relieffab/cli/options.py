@@ -29,9 +29,13 @@ STOCK_SETTINGS = (
     "outline", "corner", "frame", "frame_height", "frame_edge", "holes", "hole", "countersink",
     "keyholes",
 )  # fmt: skip
+STYLE_SETTINGS = (
+    "style", "mark_spacing", "mark_depth", "mark_direction", "mark_cutter", "ground",
+)  # fmt: skip
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (
-    "depth", "method", "thickness", *STOCK_SETTINGS, *PANEL_SETTINGS, *TEMPLATE_SETTINGS,
+    "depth", "method", "thickness", *STYLE_SETTINGS, *STOCK_SETTINGS, *PANEL_SETTINGS,
+    *TEMPLATE_SETTINGS,
     *(name for name in TOOLPATH_SETTINGS if name != "lines"),
 )  # fmt: skip
 

@@ -17,7 +17,7 @@ from relieffab.fittings import PLACES
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.write import check_change
 from relieffab.grid import Grid
-from relieffab.job import solids
+from relieffab.job import solids, styles
 from relieffab.job.settings import Job
 from relieffab.job.stocks import machine_of, stock_of
 from relieffab.layers.lines.drawing import Drawing
@@ -36,6 +36,7 @@ from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.png import to_png
 from relieffab.relief.store import to_tiff
+from relieffab.relief.style.model import Marks
 from relieffab.relief.targets import Carving
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
@@ -57,11 +58,20 @@ def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
     return profiles.cutter(job.rough), profiles.cutter(job.finish), profiles.cutter(job.lines)
 
 
+def all_cutters_of(job: Job) -> tuple[Cutter, ...]:
+    """Return the cutters of all programs, that of the marks too."""
+    style = styles.style_of(job)
+    return cutters_of(job) if style.plain else (*cutters_of(job), style.tool)
+
+
 def carving_of(job: Job) -> Carving:
-    """Return how the relief is carved: nowhere narrower than the finest tip."""
+    """Return how the relief is carved: nowhere narrower than the finest tip.
+
+    It is shallower than the job's by what its marks take.
+    """
     tip = profiles.cutter(job.lines)
     return Carving(
-        depth=job.depth,
+        depth=job.depth - styles.style_of(job).headroom,
         line_depth=job.line_depth,
         form_length=job.form_length,
         wall_angle=job.wall_angle,
@@ -86,7 +96,7 @@ def positions_of(job: Job) -> tuple[Position | None, ...]:
     found = positions(
         stock_of(job),
         machine_of(job),
-        cutters_of(job),
+        all_cutters_of(job),
         job.positions,
         overlap=job.overlap,
         zero=PLACES[job.work_zero],
@@ -111,7 +121,8 @@ def check(job: Job) -> None:
     """
     carving_of(job)
     solids.check(job)
-    cutters = cutters_of(job)
+    styles.check(job)
+    cutters = all_cutters_of(job)
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
     for position in positions_of(job):
@@ -273,7 +284,12 @@ def write_solid(
 
 
 def plan_paths(
-    relief: Relief, strokes: Sequence[Stroke], job: Job, progress: Progress = silent
+    relief: Relief,
+    strokes: Sequence[Stroke],
+    job: Job,
+    progress: Progress = silent,
+    *,
+    marks: Marks | None = None,
 ) -> tuple[Planned, ...]:
     """Plan the toolpaths of a job, position after position."""
     planned = [
@@ -288,6 +304,7 @@ def plan_paths(
                 stock=stock_of(job),
                 settings=cut_settings(job),
                 position=position,
+                marks=marks,
                 progress=progress,
             ),
         )

@@ -15,6 +15,7 @@ REPORT = "report.json"
 
 # What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
+MARKS = ("smooth.tiff", "layers/marks.svg")
 RELIEF = ("relief.tiff", "relief.png", "preview.png")
 SOLIDS = {
     name: (
@@ -25,7 +26,15 @@ SOLIDS = {
     )
     for name in ("panel", "plaque", "mould")
 }
-_NC = ("00-outline.nc", "00-probe.nc", "01-rough.nc", "02-finish.nc", "03-lines.nc", "programs.nc")
+_NC = (
+    "00-outline.nc",
+    "00-probe.nc",
+    "01-rough.nc",
+    "02-finish.nc",
+    "03-lines.nc",
+    "04-marks.nc",
+    "programs.nc",
+)
 PROGRAMS = (
     *_NC,
     *(f"[1-9]-{name}" for name in _NC),
@@ -34,7 +43,7 @@ PROGRAMS = (
 )
 TEMPLATE = ("template.svg", "template.pdf", "contours.svg")
 ALL = (
-    *(*LAYERS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK, FRAME),
+    *(*LAYERS, *MARKS, *RELIEF, *chain.from_iterable(SOLIDS.values()), STOCK, FRAME),
     *(*PROGRAMS, *TEMPLATE, "report.html"),
 )
 

@@ -24,7 +24,7 @@ from relieffab.toolpath.path import Toolpath
 
 Part = dict[str, Any]
 
-NUMBERS = {"rough": 1, "finish": 2, "lines": 3}
+NUMBERS = {"rough": 1, "finish": 2, "lines": 3, "marks": 4}
 
 
 def write(

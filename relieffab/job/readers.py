@@ -151,6 +151,20 @@ def rows(text: Any) -> tuple[float, bool]:
         ) from fault
 
 
+def mark_direction(text: Any) -> float | None:
+    """Read the direction of marks, degrees; None where they follow the form."""
+    if text == "form":
+        return None
+    try:
+        return units.angle(text)
+    except InputError as fault:
+        raise InputError(
+            "the marks' direction is not known",
+            expected="form, or an angle as 30deg",
+            found=str(text),
+        ) from fault
+
+
 def one_of(*words: str) -> Callable[[Any], str]:
     """Make a reader of one of a few words."""
 

@@ -21,6 +21,7 @@ KEYS = (
     "settings",
     "reliefs",
     "relief",
+    "style",
     *SOLIDS,
     "stock",
     "template",

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import certificate, chain, drawn, programs, proof, solids
+from relieffab.job import certificate, chain, drawn, programs, proof, solids, styles
 from relieffab.job.folder import (
     ALL,
     PROGRAMS,
@@ -26,6 +26,7 @@ from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
+from relieffab.relief.style.model import Marks
 
 Settings = Mapping[str, Chosen]
 
@@ -56,13 +57,29 @@ def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Seen:
     return seen
 
 
-def _solve(job: Job, report: Report, folder: Path, progress: Progress) -> tuple[Layers, Relief]:
+def _solve(
+    job: Job, report: Report, folder: Path, progress: Progress
+) -> tuple[Layers, Relief, Marks | None]:
     seen = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
         relief, report["relief"] = chain.solve_relief(seen.layers, job, seen.carve, progress)
-        report["relief"]["sha256"] = chain.write_relief(relief, folder)
+    relief, marks = _mark(relief, seen.layers, job, report, folder, progress)
+    report["relief"]["sha256"] = chain.write_relief(relief, folder)
     report["relief"]["seconds"] = report["timings"]["relief"]
-    return seen.layers, relief
+    return seen.layers, relief, marks
+
+
+def _mark(
+    smooth: Relief, layers: Layers, job: Job, report: Report, folder: Path, progress: Progress
+) -> tuple[Relief, Marks | None]:
+    """Give the relief the marks of the job's style, if it has one."""
+    if styles.style_of(job).plain:
+        return smooth, None
+    with _timed(report, "style", progress):
+        relief, marks, report["style"] = styles.mark(smooth, layers, job)
+        styles.write_marks(marks, job, folder)
+    report["relief"].update(chain.relief_part(relief))
+    return relief, marks
 
 
 def _carve(
@@ -160,10 +177,10 @@ def make(
         _reported(report, scratch),
         stock_files(job, scratch) as (drafting, report["stock"]),
     ):
-        layers, relief = _solve(job, report, scratch, progress)
+        layers, relief, marks = _solve(job, report, scratch, progress)
         _carve(relief, drafting, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
-            planned = chain.plan_paths(relief, layers.strokes, job, progress)
+            planned = chain.plan_paths(relief, layers.strokes, job, progress, marks=marks)
         _prove(planned, relief, job, report, scratch, progress)
     return report
 
@@ -184,11 +201,12 @@ def make_relief(
 ) -> Report:
     """Solve for the relief of a model into a folder."""
     chain.carving_of(job_of(settings))
+    styles.check(job_of(settings))
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         job = job_of(settings)
-        _, relief = _solve(job, report, scratch, progress)
+        _, relief, _ = _solve(job, report, scratch, progress)
         with _timed(report, "picture", progress):
             _, report["picture"] = chain.write_picture(relief, None, job, scratch)
     return report
@@ -217,11 +235,11 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
     job, report = job_of(settings), read_report(folder)
     chain.check(job)
     relief = read_relief(folder / "relief.tiff")
-    strokes = drawn.read_strokes(folder)
+    strokes, marks = drawn.read_strokes(folder), styles.read_marks(folder, job)
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
-            planned = chain.plan_paths(relief, strokes, job, progress)
+            planned = chain.plan_paths(relief, strokes, job, progress, marks=marks)
         _prove(planned, relief, job, report, scratch, progress)
     return report
 

@@ -52,6 +52,12 @@ class Job:
     line_length: float
     line_spread: float
     wall_angle: float
+    style: str
+    mark_spacing: float | None
+    mark_depth: float | None
+    mark_direction: float | None
+    mark_cutter: str | None
+    ground: str
     machine: str
     material: str
     rough: str

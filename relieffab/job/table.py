@@ -12,6 +12,7 @@ from relieffab.layers.lines.names import NAMES, USUAL
 from relieffab.panel import formats
 from relieffab.relief.names import ALL, PARTS, SUNKEN
 from relieffab.relief.names import NAMES as METHODS
+from relieffab.relief.style.names import GROUNDS, NONE, PLAIN, STYLES
 from relieffab.template.pages import PAPERS
 
 
@@ -112,6 +113,17 @@ SETTINGS = (
         "80deg",
         "of the figure's edge against the face; 90deg for a free one",
     ),
+    Setting(
+        "style",
+        readers.one_of(*STYLES),
+        NONE,
+        "marks of a chisel that the figure keeps: " + ", ".join(STYLES),
+    ),
+    Setting("mark_spacing", readers.positive, "", "of the marks; the chisel's own if not given"),
+    Setting("mark_depth", readers.positive, "", "of the marks; the chisel's own if not given"),
+    Setting("mark_direction", readers.mark_direction, "form", "of the marks: form, or an angle"),
+    Setting("mark_cutter", str, "", "that cuts the marks; the chisel's own if not given"),
+    Setting("ground", readers.one_of(*GROUNDS), PLAIN, "around the figure: " + ", ".join(GROUNDS)),
     Setting("machine", str, "3018-prover", "see `relieffab machines`"),
     Setting("material", str, "softwood", "see `relieffab machines`"),
     Setting("rough", str, "flat-3.175", "roughing cutter"),

@@ -4,12 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from relieffab.compiled import kernel
 from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.relief.model import to_nodes
 from relieffab.relief.reach import Profile
+from relieffab.relief.sweep import reach_of, sweep
 
 Floats = NDArray[np.float64]
 
@@ -55,32 +55,6 @@ def inked(layers: Layers, line_depth: float) -> Floats:
     return -line_depth * to_nodes(moved, np.ones_like(ink))
 
 
-@kernel
-def _sweep(row, col, deep, table, reach, pitch, out):  # type: ignore[no-untyped-def]
-    """Lower nodes under a tip that follows a polyline in nodes' rows and columns."""
-    n, m = out.shape
-    wide = reach / pitch
-    for k in range(len(row) - 1):
-        across, down = col[k + 1] - col[k], row[k + 1] - row[k]
-        square = across * across + down * down
-        top = max(int(min(row[k], row[k + 1]) - wide), 0)
-        low = min(int(max(row[k], row[k + 1]) + wide) + 2, n)
-        left = max(int(min(col[k], col[k + 1]) - wide), 0)
-        right = min(int(max(col[k], col[k + 1]) + wide) + 2, m)
-        for i in range(top, low):
-            for j in range(left, right):
-                y, x = i - row[k], j - col[k]
-                s = (x * across + y * down) / square if square > 0.0 else 0.0
-                s = min(max(s, 0.0), 1.0)
-                y, x = y - s * down, x - s * across
-                place = np.sqrt(x * x + y * y) * pitch / reach * (len(table) - 1)
-                if place < len(table) - 1:
-                    a = int(place)
-                    height = table[a] + (place - a) * (table[a + 1] - table[a])
-                    depth = deep[k] + s * (deep[k + 1] - deep[k])
-                    out[i, j] = min(out[i, j], height - depth)
-
-
 def swept(layers: Layers, line_depth: float, profile: Profile) -> Floats:
     """Profile of the strokes as a cutter that follows them leaves it, on nodes.
 
@@ -120,7 +94,7 @@ def swept(layers: Layers, line_depth: float, profile: Profile) -> Floats:
 
 
 def _lowered(out, grid: Grid, strokes, line_depth: float, profile: Profile) -> Floats:  # type: ignore[no-untyped-def]
-    reach = _reach(profile, line_depth)
+    reach = reach_of(profile, line_depth)
     table = np.minimum(profile(np.linspace(0.0, reach, SAMPLES)), 2 * line_depth)
     for stroke in strokes:
         ends = [stroke.points, stroke.points[:1]] if stroke.closed else [stroke.points]
@@ -130,13 +104,5 @@ def _lowered(out, grid: Grid, strokes, line_depth: float, profile: Profile) -> F
         )
         deep = line_depth * (FAINT + (1 - FAINT) * strength)
         row, col = grid.to_index(points[:, 0], points[:, 1])
-        _sweep(row, col, deep, table, reach, grid.pitch, out)
+        sweep(row, col, deep, table, reach, grid.pitch, out)
     return out
-
-
-def _reach(profile: Profile, line_depth: float) -> float:
-    """Distance from the axis at which a cutter so deep leaves the surface, mm."""
-    reach = 1e-3
-    while profile(np.array([reach]))[0] < line_depth and reach < 1e3:
-        reach *= 1.1
-    return reach

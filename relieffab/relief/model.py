@@ -90,7 +90,7 @@ class Relief:
     heights : (rows + 1, cols + 1) ndarray
         At nodes, mm; 0 is the panel's face, negative into it.
     mask : (rows, cols) ndarray of bool
-        Pixels of the figure; every other node is at 0.
+        Pixels of the figure; every other node is at 0, but for a pecked ground's.
     depth : float
         Lower bound of the heights, positive, mm.
     """

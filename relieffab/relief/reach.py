@@ -104,6 +104,37 @@ def _highest(field, reach, offsets, drop, out):  # type: ignore[no-untyped-def]
                         target[j] = max(target[j], source[j] - low)
 
 
+def _sunken(heights: Floats) -> tuple[slice, slice]:
+    """Rows and columns that hold all below 0, of which there is some."""
+    rows, cols = (np.nonzero((heights < 0).any(axis=axis))[0] for axis in (1, 0))
+    return slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)
+
+
+def lowest_tips(heights: Floats, pitch: float, profile: Profile) -> Floats:
+    """Find the lowest places of a cutter over a surface: max over s of h(s) - c(|s - x|).
+
+    Parameters are those of `closing`.
+
+    Returns
+    -------
+    (rows, cols) ndarray
+        Heights of the tip at the nodes, mm; nowhere below the heights.
+    """
+    if not (heights < 0).any():
+        return heights
+    box = _sunken(heights)
+    sunken = np.ascontiguousarray(heights[box], dtype=np.float64)
+    offsets, drop = tip(profile, pitch, -float(sunken.min()), max(sunken.shape))
+    if not len(drop):
+        return heights
+    reach = int(offsets.max())
+    lowest = sunken.copy()
+    _highest(np.pad(sunken, reach), reach, offsets, drop, lowest)
+    out = heights.copy()
+    out[box] = lowest
+    return out
+
+
 def closing(heights: Floats, pitch: float, profile: Profile) -> Floats:
     """Fill what a cutter lowered onto a surface at every node does not reach.
 
@@ -126,20 +157,15 @@ def closing(heights: Floats, pitch: float, profile: Profile) -> Floats:
         mm; nowhere below the heights nor above 0, and `heights` itself where the
         cutter is narrower than the lattice.
     """
-    below = heights < 0
-    if not below.any():
+    lowest = lowest_tips(heights, pitch, profile)
+    if lowest is heights:
         return heights
-    rows, cols = np.nonzero(below.any(axis=1))[0], np.nonzero(below.any(axis=0))[0]
-    box = slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)
+    box = _sunken(heights)
     sunken = np.ascontiguousarray(heights[box], dtype=np.float64)
     offsets, drop = tip(profile, pitch, -float(sunken.min()), max(sunken.shape))
-    if not len(drop):
-        return heights
     reach = int(offsets.max())
-    lowest = sunken.copy()
-    _highest(np.pad(sunken, reach), reach, offsets, drop, lowest)
-    left = -lowest
-    _highest(np.pad(-lowest, reach), reach, offsets, drop, left)
+    left = -lowest[box]
+    _highest(np.pad(left, reach), reach, offsets, drop, left)
     out = heights.copy()
     out[box] = np.maximum(-left, sunken)
     return out

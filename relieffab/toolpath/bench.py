@@ -25,6 +25,7 @@ Floats = NDArray[np.float64]
 
 _LEAST = 0.01
 _LEAST_LINE = 0.02
+_LEAST_MARK = 0.01
 _SHARE = 0.6
 
 
@@ -80,6 +81,13 @@ class Bench:
         apart = scallop_stepover(cutter, self.settings.scallop)
         ways = creases(work) + strips(work, apart)
         return parts + self._cut(work, sample(ways, work.step))
+
+    def marks(
+        self, cutter: Cutter, stepdown: float, *, marked: Terrain, lines: Sequence[Floats]
+    ) -> list[Pass]:
+        """Cut a chisel's marks, each in one go along its line, into what is finished."""
+        work = replace(self._work(cutter, stepdown, _LEAST_MARK), relief=marked)
+        return self._cut(work, sample(lines, work.step))
 
     def _surface(self, cutter: Cutter, stepdown: float, least: float) -> list[Pass]:
         settings, parts = self.settings, list[Pass]()

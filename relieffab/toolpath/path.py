@@ -18,7 +18,7 @@ class Toolpath:
     Parameters
     ----------
     name : str
-        'rough', 'finish' or 'lines'.
+        'rough', 'finish', 'lines' or 'marks'.
     points : (n, 3) ndarray
         Positions of the cutter's tip, panel mm, Z0 on the face.
     feed : (n,) ndarray

@@ -1,4 +1,4 @@
-"""From a relief to one toolpath a cutter: roughing, finishing, lines."""
+"""From a relief to one toolpath a cutter: roughing, finishing, lines, marks."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -10,6 +10,7 @@ from relieffab.layers.model import Stroke
 from relieffab.machine import Machine, Material, cutting
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
+from relieffab.relief.style.model import Marks
 from relieffab.stock import Stock
 from relieffab.toolpath.bench import Bench
 from relieffab.toolpath.check import check, check_stepover
@@ -23,7 +24,7 @@ from relieffab.toolpath.settings import Settings
 
 Stage = Callable[[Cutter, float], list[Pass]]
 
-NAMES = ("rough", "finish", "lines")
+NAMES = ("rough", "finish", "lines", "marks")
 
 REACH = 6.0
 """Ways shorter than this from cut to cut cost less than a retract, mm."""
@@ -48,9 +49,12 @@ def plan(
     stock: Stock | None = None,
     settings: Settings | None = None,
     position: Position | None = None,
+    marks: Marks | None = None,
     progress: Progress = silent,
 ) -> tuple[Toolpath, ...]:
     """Plan the carving of a relief.
+
+    One with a chisel's marks is carved without them first, and they are cut last.
 
     Parameters
     ----------
@@ -66,12 +70,14 @@ def plan(
     settings : Settings, optional
     position : Position, optional
         Where the machine cannot reach all of the stock: what is cut is within this window.
+    marks : Marks, optional
+        Of the relief.
     progress : Progress
 
     Returns
     -------
     tuple of Toolpath
-        Those of 'rough', 'finish' and 'lines' that have anything to cut; at a position
+        Those of 'rough', 'finish', 'lines' and 'marks' that have anything to cut; at a position
         there may be none.
 
     Raises
@@ -83,19 +89,24 @@ def plan(
     settings = settings or Settings()
     stepover = settings.stepover
     stepover = scallop_stepover(cutters[1], settings.scallop) if stepover is None else stepover
-    check(relief, machine, cutters, stock or _bare_stock(relief), stepover, position)
+    used = (*cutters, marks.cutter) if marks else cutters
+    check(relief, machine, used, stock or _bare_stock(relief), stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
-    uses = [cutting(cutter, material, machine) for cutter in cutters]
-    bench = Bench(_part(Terrain.of(relief), position, cutters), settings, position)
-    stages: tuple[Stage, ...] = (bench.rough, bench.finish, partial(bench.lines, strokes=strokes))
+    uses = [cutting(cutter, material, machine) for cutter in used]
+    surface = marks.smooth if marks else relief
+    bench = Bench(_part(Terrain.of(surface), position, used), settings, position)
+    stages: list[Stage] = [bench.rough, bench.finish, partial(bench.lines, strokes=strokes)]
+    if marks:
+        marked = _part(Terrain.of(relief), position, used)
+        stages.append(partial(bench.marks, marked=marked, lines=marks.lines))
     paths = []
-    for k, (name, cutter, use, stage) in enumerate(zip(NAMES, cutters, uses, stages, strict=True)):
-        progress("toolpaths", k, 3, "programs")
+    for k, (name, cutter, use, stage) in enumerate(zip(NAMES, used, uses, stages, strict=False)):
+        progress("toolpaths", k, len(used), "programs")
         parts = stage(cutter, use.stepdown)
         points, feed = link(parts, Linking(machine, use, REACH, ramp=name == "rough"))
         if len(points):
             paths.append(Toolpath(name, points, feed, cutter, use.rpm))
-    progress("toolpaths", 3, 3, "programs")
+    progress("toolpaths", len(used), len(used), "programs")
     if not paths and position is None:
         raise InputError(
             "there is nothing to cut: the relief is shallower than the least cut",

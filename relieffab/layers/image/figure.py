@@ -28,10 +28,8 @@ COARSE = 400
 
 def opaque(picture: Picture) -> Bools:
     """Pixels that show something: opaque, and numbers; (rows, cols)."""
-    seen: Bools = np.isfinite(picture.values).all(axis=2)
-    if picture.alpha is not None:
-        seen = seen & (picture.alpha > 0.5)
-    return seen
+    seen = np.asarray(np.isfinite(picture.values).all(axis=2))
+    return seen if picture.alpha is None else seen & (picture.alpha > 0.5)
 
 
 def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:

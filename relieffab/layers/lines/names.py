@@ -19,6 +19,8 @@ NAMES = (*PRINCIPAL, *SECONDARY)
 """Lines that a form gives."""
 DRAWN = "drawn"
 """A line that nobody found: it was drawn, or written."""
+MARK = "mark"
+"""A chisel's way over the surface: no line of the drawing."""
 USUAL = (*PRINCIPAL, "suggestive")
 
 

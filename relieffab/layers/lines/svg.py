@@ -6,7 +6,7 @@ import numpy as np
 from lxml import etree
 
 from relieffab.errors import InputError
-from relieffab.layers.lines.names import DRAWN, NAMES, PRINCIPAL
+from relieffab.layers.lines.names import DRAWN, MARK, NAMES, PRINCIPAL
 from relieffab.layers.model import Stroke
 
 _INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
@@ -39,7 +39,7 @@ def strokes_to_svg(
         viewBox=f"0 0 {across:g} {high:g}",
     )
     strokes = tuple(strokes)
-    for kind in (*NAMES, DRAWN):
+    for kind in (*NAMES, DRAWN, MARK):
         members = [stroke for stroke in strokes if stroke.kind == kind]
         if not members:
             continue

@@ -1,0 +1,100 @@
+"""Marks as the cutter leaves them: its tip swept along each, below the smooth surface."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from relieffab.cutter import Cutter
+from relieffab.relief.reach import lowest_tips
+from relieffab.relief.sweep import reach_of, sweep
+
+Floats = NDArray[np.float64]
+Stroke = tuple[Floats, Floats]
+
+STEEPEST = 0.6  # of the tip's radius: so high above its lowest point it still touches a slope
+EVEN = 3.0  # samples of a stroke, about pixels
+GRAIN = 0.005  # mm
+SAMPLES = 512  # of the tip's profile
+
+
+def tip_table(cutter: Cutter, deepest: float) -> tuple[Floats, float]:
+    """Sample as much of a cutter's profile as touches slopes under marks so deep, mm.
+
+    Returns
+    -------
+    table : (n,) ndarray
+        Heights above the tip at even distances from the axis, mm.
+    reach : float
+        The last of those distances, mm.
+    """
+    reach = min(reach_of(cutter.profile, deepest + STEEPEST * cutter.tip_radius), cutter.radius)
+    return cutter.profile(np.linspace(0.0, reach, SAMPLES)), reach
+
+
+def _finer(heights: Floats) -> Floats:
+    """Put a node between any two."""
+    rows, cols = (2 * n - 1 for n in heights.shape)
+    fine = np.empty((rows, cols))
+    fine[::2, ::2] = heights
+    fine[1::2, ::2] = 0.5 * (heights[1:] + heights[:-1])
+    fine[:, 1::2] = 0.5 * (fine[:, 2::2] + fine[:, :-1:2])
+    return fine
+
+
+def _coarser(fine: Floats) -> Floats:
+    """Take every other node, with the halves of its neighbours."""
+    for axis in (0, 1):
+        fine = ndimage.convolve1d(fine, [0.25, 0.5, 0.25], axis=axis, mode="nearest")
+    return fine[::2, ::2]
+
+
+def _steady(z: Floats) -> Floats:
+    """Even out what crossing a lattice puts into a way over it, and no more.
+
+    A stroke that drifts over columns of nodes would show each of them as a step.
+    """
+    even = ndimage.gaussian_filter1d(z, EVEN, mode="nearest")
+    return np.clip(even, z - GRAIN, z + GRAIN)
+
+
+def textured(
+    smooth: Floats, pitch: float, strokes: Sequence[Stroke], cutter: Cutter, depth: float
+) -> Floats:
+    """Carve strokes into a surface.
+
+    The cutter stands as deep as a stroke asks below the lowest place where it would
+    only touch the smooth surface: so no mark is narrower than the cutter, and where it
+    cannot reach there is none.  Nodes take the mean of the marks around them, which
+    keeps oblique ones from becoming rows of dots.
+
+    Parameters
+    ----------
+    smooth : (n, m) ndarray
+        At nodes, mm, -depth to 0.
+    pitch : float
+        mm.
+    strokes : sequence of tuple of (k, 2) and (k,) ndarray
+        Rows and columns, and depths in mm.
+    cutter : Cutter
+    depth : float
+        Bound of the relief, mm.
+
+    Returns
+    -------
+    (n, m) ndarray
+        mm; from -depth to the smooth surface.
+    """
+    if not strokes:
+        return smooth
+    deepest = max(float(deep.max()) for _, deep in strokes)
+    table, reach = tip_table(cutter, deepest)
+    tips = lowest_tips(smooth, pitch, cutter.profile)
+    fine = _finer(smooth)
+    left = fine.copy()
+    for places, deep in strokes:
+        z = _steady(ndimage.map_coordinates(tips, places.T, order=1, mode="nearest")) - deep
+        row, col = np.ascontiguousarray(2 * places.T)
+        sweep(row, col, np.minimum(-z, depth), table, reach, pitch / 2, left)
+    return np.clip(smooth - _coarser(fine - left), -depth, smooth)
