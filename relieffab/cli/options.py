@@ -15,7 +15,11 @@ from relieffab.job.settings import Chosen, resolve
 from relieffab.job.table import TABLE, Setting
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
-PANEL_SETTINGS = ("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance")
+ROUND_SETTINGS = ("round", "bore", "floor", "curved")
+PANEL_SETTINGS = (
+    *("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance"),
+    *ROUND_SETTINGS,
+)
 TOOLPATH_SETTINGS = (
     *("machine", "material", "rough", "finish", "lines", "stepover", "scallop", "rows", "milling"),
     *("units", "work_zero", "work_zero_z", "positions", "overlap", "plate", "cutter_change"),
@@ -23,7 +27,7 @@ TOOLPATH_SETTINGS = (
 TEMPLATE_SETTINGS = ("paper",)
 STOCK_SETTINGS = (
     "outline", "corner", "frame", "frame_height", "frame_edge", "holes", "hole", "countersink",
-    "keyholes",
+    "keyholes", *ROUND_SETTINGS,
 )  # fmt: skip
 # What makes no difference between methods, or is what `compare` goes through.
 _NOT_COMPARED = (

@@ -27,13 +27,21 @@ from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
 from relieffab.panel.sinking import check_clear
-from relieffab.picture import panel_picture, png8, png16, smaller, solid_picture
+from relieffab.picture import (
+    panel_picture,
+    png8,
+    png16,
+    smaller,
+    solid_picture,
+    standing_picture,
+)
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.png import to_png
 from relieffab.relief.store import to_tiff
 from relieffab.relief.targets import Carving
+from relieffab.round import Curved, Round
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
@@ -281,9 +289,26 @@ def plan_paths(
     return cut
 
 
-def write_picture(relief: Relief, panel: Panel | None, folder: Path) -> tuple[bytes, Part]:
-    """Write preview.png; return it small, and how it was made."""
-    return _kept(*panel_picture(relief, panel), folder / "preview.png")
+def write_picture(
+    relief: Relief, panel: Panel | None, folder: Path, bent: Round | Curved | None = None
+) -> tuple[bytes, Part]:
+    """Write preview.png; return it small, and how it was made.
+
+    Parameters
+    ----------
+    relief : Relief
+    panel : Panel or None
+        Without one, the picture shows the relief.
+    folder : Path
+    bent : Round or Curved, optional
+        The stock that the panel is carved from, where it is not flat.
+    """
+    file = folder / "preview.png"
+    if panel is not None and isinstance(bent, Round):
+        return _kept(standing_picture(panel), "orthographic", file)
+    if panel is not None and bent is not None:
+        return _kept(*solid_picture(panel, relief.grid.pitch), file)
+    return _kept(*panel_picture(relief, panel), file)
 
 
 def write_solid_picture(solid: Panel, relief: Relief, file: Path) -> tuple[bytes, Part]:
