@@ -16,9 +16,12 @@ from relieffab.job.table import TABLE, Setting
 
 # What `panel` and `toolpath` may still choose; the rest was settled by the relief.
 PICTURE_SETTINGS = ("light", "texture")
+ROUND_SETTINGS = ("round", "bore", "floor", "curved")
 PANEL_SETTINGS = (
-    *("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance"), *PICTURE_SETTINGS,
-)  # fmt: skip
+    *("mesh_tolerance", "formats", "solid", "draft", "bed", "clearance"),
+    *PICTURE_SETTINGS,
+    *ROUND_SETTINGS,
+)
 TOOLPATH_SETTINGS = (
     *("machine", "material", "rough", "finish", "lines", "stepover", "scallop", "rows", "milling"),
     *("units", "work_zero", "work_zero_z", "positions", "overlap", "plate", "cutter_change"),
@@ -27,7 +30,7 @@ TOOLPATH_SETTINGS = (
 TEMPLATE_SETTINGS = ("paper",)
 STOCK_SETTINGS = (
     "outline", "corner", "frame", "frame_height", "frame_edge", "holes", "hole", "countersink",
-    "keyholes",
+    "keyholes", *ROUND_SETTINGS,
 )  # fmt: skip
 STYLE_SETTINGS = (
     "style", "mark_spacing", "mark_depth", "mark_direction", "mark_cutter", "ground",

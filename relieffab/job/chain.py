@@ -30,7 +30,14 @@ from relieffab.layers.view import VIEWS, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
 from relieffab.panel.sinking import check_clear
-from relieffab.picture import panel_picture, png8, png16, smaller, solid_picture
+from relieffab.picture import (
+    panel_picture,
+    png8,
+    png16,
+    smaller,
+    solid_picture,
+    standing_picture,
+)
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
@@ -38,6 +45,7 @@ from relieffab.relief.png import to_png
 from relieffab.relief.store import to_tiff
 from relieffab.relief.style.model import Marks
 from relieffab.relief.targets import Carving
+from relieffab.round import Curved, Round
 from relieffab.toolpath.check import check_stepover, check_tools
 from relieffab.toolpath.path import Toolpath
 from relieffab.toolpath.plan import plan
@@ -320,11 +328,32 @@ def plan_paths(
 
 
 def write_picture(
-    relief: Relief, panel: Panel | None, job: Job, folder: Path
+    relief: Relief,
+    panel: Panel | None,
+    job: Job,
+    folder: Path,
+    bent: Round | Curved | None = None,
 ) -> tuple[bytes, Part]:
-    """Write preview.png; return it small, and how it was made."""
-    picture = panel_picture(relief, panel, light=light_at(*job.light), texture=job.texture)
-    return _kept(*picture, folder / "preview.png")
+    """Write preview.png; return it small, and how it was made.
+
+    Parameters
+    ----------
+    relief : Relief
+    panel : Panel or None
+        Without one, the picture shows the relief.
+    job : Job
+    folder : Path
+    bent : Round or Curved, optional
+        The stock that the panel is carved from, where it is not flat.
+    """
+    file, light = folder / "preview.png", light_at(*job.light)
+    if panel is not None and isinstance(bent, Round):
+        return _kept(standing_picture(panel), "orthographic", file)
+    if panel is not None and bent is not None:
+        picture = solid_picture(panel, relief.grid.pitch, light=light, texture=job.texture)
+    else:
+        picture = panel_picture(relief, panel, light=light, texture=job.texture)
+    return _kept(*picture, file)
 
 
 def write_solid_picture(solid: Panel, relief: Relief, job: Job, file: Path) -> tuple[bytes, Part]:

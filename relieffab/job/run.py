@@ -19,9 +19,8 @@ from relieffab.job.folder import (
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.seen import Seen, look_at, read_model
 from relieffab.job.settings import Chosen, Job, job_of
-from relieffab.job.stocks import stock_files
+from relieffab.job.stocks import Drawn, round_of, stock_files
 from relieffab.layers.model import Layers
-from relieffab.panel.blank import Drafting
 from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
@@ -84,7 +83,7 @@ def _mark(
 
 def _carve(
     relief: Relief,
-    drafting: Drafting,
+    stock: Drawn,
     job: Job,
     report: Report,
     folder: Path,
@@ -95,11 +94,12 @@ def _carve(
     Before there is a panel, preview.png shows the relief.
     """
     with _timed(report, job.solid, progress):
-        solid, facts = solids.make(relief, drafting, job, progress)
+        solid, facts = solids.make(relief, stock, job, progress)
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
-            small, report["picture"] = chain.write_picture(relief, panel, job, folder)
+            picture = chain.write_picture(relief, panel, job, folder, round_of(job))
+            small, report["picture"] = picture
         if panel is None:
             file = folder / f"{job.solid}.png"
             small, facts["picture"] = chain.write_solid_picture(solid, relief, job, file)
@@ -175,10 +175,10 @@ def make(
     with (
         finished_together(folder, ALL) as scratch,
         _reported(report, scratch),
-        stock_files(job, scratch) as (drafting, report["stock"]),
+        stock_files(job, scratch) as (stock, report["stock"]),
     ):
         layers, relief, marks = _solve(job, report, scratch, progress)
-        _carve(relief, drafting, job, report, scratch, progress)
+        _carve(relief, stock, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
             planned = chain.plan_paths(relief, layers.strokes, job, progress, marks=marks)
         _prove(planned, relief, job, report, scratch, progress)
@@ -202,6 +202,7 @@ def make_relief(
     """Solve for the relief of a model into a folder."""
     chain.carving_of(job_of(settings))
     styles.check(job_of(settings))
+    round_of(job_of(settings))
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
@@ -224,9 +225,9 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     with (
         finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
         _reported(report, scratch, folder),
-        stock_files(job, scratch) as (drafting, report["stock"]),
+        stock_files(job, scratch) as (stock, report["stock"]),
     ):
-        _carve(relief, drafting, job, report, scratch, progress)
+        _carve(relief, stock, job, report, scratch, progress)
     return report
 
 

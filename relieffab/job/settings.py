@@ -32,6 +32,10 @@ class Job:
     hole: float
     countersink: float | None
     keyholes: tuple[tuple[float, float], ...] | None
+    round: float | None
+    bore: float | None
+    floor: float | None
+    curved: float | None
     depth: float
     method: str
     carve: str
@@ -86,7 +90,7 @@ class Job:
     paper: str
 
     def __post_init__(self) -> None:
-        if self.depth >= self.thickness:
+        if self.round is None and self.depth >= self.thickness:
             raise InputError(
                 "the relief would go through the stock",
                 expected=f"depth under the thickness, {self.thickness:g} mm",

@@ -5,7 +5,7 @@ from typing import Any
 
 from relieffab.errors import InputError
 from relieffab.job.settings import Job
-from relieffab.job.stocks import stock_of
+from relieffab.job.stocks import Drawn, round_of, stock_of
 from relieffab.panel.blank import Drafting
 from relieffab.panel.carve import make_panel
 from relieffab.panel.draft import check_draft
@@ -13,10 +13,12 @@ from relieffab.panel.export import write_panel
 from relieffab.panel.model import Panel
 from relieffab.panel.mould import FLOOR, make_mould, outer_size
 from relieffab.panel.plaque import make_plaque
+from relieffab.panel.rounds import make_round
 from relieffab.panel.tiles import split
 from relieffab.panel.tongues import layout, tongue_height
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
+from relieffab.round import Curved, Round, check_depth
 from relieffab.stock import Stock
 
 Facts = dict[str, Any]
@@ -31,6 +33,9 @@ def check(job: Job) -> None:
         If walls have no such draft, the bed is too small, or the slab too thin
         for tongues.
     """
+    if (bent := round_of(job)) is not None:
+        _check_round(bent, job)
+        return
     if not stock_of(job).plain and (job.solid == "mould" or job.bed is not None):
         what = "has a mould" if job.solid == "mould" else "comes in parts"
         raise InputError(
@@ -48,17 +53,40 @@ def check(job: Job) -> None:
         tongue_height(thickness, floor, job.clearance)
 
 
+def _check_round(stock: Round | Curved, job: Job) -> None:
+    check_depth(stock, job.depth)
+    if job.solid != "panel" or job.bed is not None:
+        what = f"has a {job.solid}" if job.solid != "panel" else "comes in parts"
+        raise InputError(
+            f"only a flat panel {what}",
+            found="a round stock or a curved board",
+            where="solid" if job.solid != "panel" else "bed",
+        )
+
+
 def make(
-    relief: Relief, drafting: Drafting, job: Job, progress: Progress = silent
+    relief: Relief, drawn: Drawn, job: Job, progress: Progress = silent
 ) -> tuple[Panel, Facts]:
-    """Make the solid that a job asks for, and what is to be said of a mould."""
-    tolerance, stock = job.mesh_tolerance, drafting.stock
+    """Make the solid that a job asks for, and what is to be said of a mould.
+
+    Parameters
+    ----------
+    relief : Relief
+    drawn : Drafting, Round or Curved
+        The stock.
+    job : Job
+    progress : Progress
+    """
+    tolerance = job.mesh_tolerance
+    if not isinstance(drawn, Drafting):
+        return make_round(relief, drawn, tolerance=tolerance, progress=progress), {}
+    stock = drawn.stock
     if job.solid == "plaque":
         angle = job.wall_angle
         return make_plaque(
             relief, stock, wall_angle=angle, tolerance=tolerance, progress=progress
         ), {}
-    blank = drafting.blank()
+    blank = drawn.blank()
     panel = make_panel(relief, stock, blank=blank, tolerance=tolerance, progress=progress)
     if job.solid == "panel":
         return panel, {}

@@ -14,13 +14,49 @@ from relieffab.machine import Machine
 from relieffab.panel.blank import Drafting, drafting
 from relieffab.panel.cad import CadUnavailableError
 from relieffab.panel.formats import FRAME, STOCK
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 Part = dict[str, Any]
+Drawn = Drafting | Round | Curved
+"""A flat stock being drawn, or one of which nothing is drawn."""
+
+
+def round_of(job: Job) -> Round | Curved | None:
+    """Return the round stock or curved board that a job's panel is bent over, if any.
+
+    Raises
+    ------
+    InputError
+        If there is no such stock, or it has what only a flat slab has.
+    """
+    for name, what in (("bore", "round"), ("floor", "bore")):
+        if getattr(job, name) is not None and getattr(job, what) is None:
+            raise InputError(f"{name} is given, but no {what}", where=name, hint=f"--{what}, too")
+    if job.round is not None and job.curved is not None:
+        raise InputError("a stock is round or curved, not both", where="curved")
+    width, height = job.size
+    bent: Round | Curved
+    if job.round is not None:
+        bent = Round(width, height, job.round, job.bore or 0.0, job.floor or 0.0)
+    elif job.curved is not None:
+        bent = Curved(width, height, job.thickness, job.curved)
+    else:
+        return None
+    flat = [name for name in ("frame", "holes", "keyholes") if getattr(job, name) is not None]
+    flat += ["outline"] if job.outline != "rectangle" else []
+    flat += ["corner"] if job.corner else []
+    if flat:
+        raise InputError(
+            f"only a flat panel can have {flat[0]}",
+            found=f"{'round' if job.round else 'curved'}, too",
+            where=flat[0],
+        )
+    return bent
 
 
 def stock_of(job: Job) -> Stock:
-    """Return the slab a job is carved from.
+    """Return the slab a job is carved from; of a round stock, its face laid out flat.
 
     Raises
     ------
@@ -28,12 +64,13 @@ def stock_of(job: Job) -> Stock:
         If frame, corners or holes do not fit it or each other, or what is given is of
         none of them.
     """
+    bent = round_of(job)
     for name, what in (("frame_edge", "frame"), ("countersink", "holes")):
         if getattr(job, name) is not None and getattr(job, what) is None:
             raise InputError(f"{name} is given, but no {what}", where=name, hint=f"--{what}, too")
     frame = None if job.frame is None else Frame(job.frame, job.frame_height, job.frame_edge)
     return Stock.zeroed(
-        (*job.size, job.thickness),
+        (*job.size, job.thickness if bent is None else bent.wall),
         job.work_zero,
         job.work_zero_z,
         shape=job.outline,
@@ -51,12 +88,16 @@ def machine_of(job: Job) -> Machine:
 
 
 @contextmanager
-def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drafting, Part]]:
+def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drawn, Part]]:
     """Write stock.step and frame.step beside whatever else is done.
 
     The part, report.json's `stock`, says whether they came to be: a plain slab
-    does without them.
+    does without them, and a round stock has none.
     """
+    bent = round_of(job)
+    if bent is not None:
+        yield bent, {"file": None, "note": "only a flat stock is drawn"}
+        return
     part: Part = {"file": None, "note": ""}
     with drafting(stock_of(job), folder) as work:
         yield work, part

@@ -66,6 +66,10 @@ SETTINGS = (
     Setting(
         "keyholes", readers.places, "", "in the back, where the screw comes to rest, X x Y each"
     ),
+    Setting("round", readers.positive, "", "diameter of a column that the panel is wrapped round"),
+    Setting("bore", readers.positive, "", "diameter of the column's bore: a ring"),
+    Setting("floor", readers.positive, "", "height at which the bore begins: a cup"),
+    Setting("curved", readers.positive, "", "radius of a board's face that is curved along X"),
     Setting("depth", readers.positive, "3mm", "of the relief at its deepest"),
     Setting("method", readers.method, SUNKEN, "of making the relief: " + ", ".join(METHODS)),
     Setting("carve", readers.part, ALL, "what is carved: " + ", ".join(PARTS)),

@@ -70,7 +70,7 @@ def largest_error(vertices: Floats, faces: Ints, relief: Relief, stock: Stock) -
     return float(deviations(h, places, faces[up], margin=BORDER).max(initial=0.0))
 
 
-def _surface(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Surface, float]:
+def surface_below(sinking: Sinking, tolerance: float, progress: Progress) -> tuple[Surface, float]:
     """Triangulate and simplify what is below the face; and its largest error, mm."""
     reserve = RESERVE * tolerance
     bound = tolerance - 2 * reserve
@@ -124,7 +124,7 @@ def make_panel(
             found=f"{tolerance:g} mm",
         )
     sinking = sink(relief, stock)
-    surface, error = _surface(sinking, tolerance, progress)
+    surface, error = surface_below(sinking, tolerance, progress)
     progress("carve", 0, 1)
     panel = panel_of(carve(blank or make_blank(stock), surface), error)
     found = largest_error(panel.vertices, panel.faces, relief, stock)

@@ -5,6 +5,7 @@ from relieffab.picture.look import predicted_look
 from relieffab.picture.panel import panel_picture, solid_picture
 from relieffab.picture.png import png8, png16, smaller
 from relieffab.picture.render import OpenGLMissingError
+from relieffab.picture.standing import standing_picture
 from relieffab.picture.stone import hillshade, relit
 
 __all__ = [
@@ -18,4 +19,5 @@ __all__ = [
     "relit",
     "smaller",
     "solid_picture",
+    "standing_picture",
 ]
