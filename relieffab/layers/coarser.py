@@ -6,7 +6,6 @@ import numpy as np
 
 from relieffab.layers.mesh import Mesh
 
-
 HASTE = (2, 3, 5, 7)
 """How fast the bound on the error grows, tried in turn: slowly leaves even triangles, from which
 the same lines are drawn, but may end before there are few enough."""

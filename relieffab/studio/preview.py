@@ -28,8 +28,8 @@ from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
 from relieffab.studio.model import Model
 
-WIDTH = 256
-"""Pixels of the longer side."""
+WIDTH, FINE = 256, 512
+"""Pixels of the longer side, while the hand moves and when it rests."""
 
 TOLERANCE = 0.05
 """Of a panel that is only looked at, mm."""
@@ -119,10 +119,13 @@ class Preview:
     ----------
     width : int
         Pixels of the longer side.
+    whole : bool
+        Whether from the model as the page shows it, or in fewer triangles.
     """
 
-    def __init__(self, width: int = WIDTH) -> None:
+    def __init__(self, width: int = WIDTH, *, whole: bool = False) -> None:
         self.width = width
+        self.whole = whole
         self.kept = Kept()
         self._study: tuple[Model | None, Study | None] = None, None
         self.seconds: dict[str, float] = {}
@@ -148,7 +151,7 @@ class Preview:
         return view
 
     def _look(self, model: Model, job: Job) -> tuple[Sight, dict[str, Any]]:
-        mesh = model.tried
+        mesh = model.shown if self.whole else model.tried
         view, _ = chain.view_of(job, mesh)
         placed = chain.place_model(mesh, view, job)
         groups = self.kept.once(

@@ -86,11 +86,15 @@ def plan(
     check(relief, machine, cutters, stock or _bare_stock(relief), stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
     uses = [cutting(cutter, material, machine) for cutter in cutters]
-    bench = Bench(_part(Terrain.of(relief), position, cutters), settings, position)
+    paths: list[Toolpath] = []
+
+    def tell() -> None:
+        progress("toolpaths", len(paths), 3, "programs")
+
+    bench = Bench(_part(Terrain.of(relief), position, cutters), settings, position, tell)
     stages: tuple[Stage, ...] = (bench.rough, bench.finish, partial(bench.lines, strokes=strokes))
-    paths = []
-    for k, (name, cutter, use, stage) in enumerate(zip(NAMES, cutters, uses, stages, strict=True)):
-        progress("toolpaths", k, 3, "programs")
+    for name, cutter, use, stage in zip(NAMES, cutters, uses, stages, strict=True):
+        tell()
         parts = stage(cutter, use.stepdown)
         points, feed = link(parts, Linking(machine, use, REACH, ramp=name == "rough"))
         if len(points):
