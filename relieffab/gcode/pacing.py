@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from relieffab.gcode.estimate import Pace, pace
+from relieffab.gcode.program import Program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.write import foretold
 from relieffab.toolpath.path import Toolpath
@@ -25,11 +26,14 @@ class Paced:
     tolerance : float
         By which it was simplified, upwards only, mm.
     pace : Pace
+    program : Program
+        The path as it would be written.
     """
 
     path: Toolpath
     tolerance: float
     pace: Pace
+    program: Program
 
     @property
     def warning(self) -> str:
@@ -56,7 +60,8 @@ def paced(path: Toolpath, setup: Setup) -> Paced:
     tried: list[Paced] = []
     for tolerance in TOLERANCES:
         thinner = thin(path, tolerance)
-        found = Paced(thinner, tolerance, pace(foretold(thinner, setup), setup.machine))
+        program = foretold(thinner, setup)
+        found = Paced(thinner, tolerance, pace(program, setup.machine), program)
         if found.pace.starved <= STARVED:
             return found
         tried.append(found)

@@ -26,7 +26,7 @@ from relieffab.layers.make import layers_of
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.layers.shading import light_at
-from relieffab.layers.view import VIEWS, View, guess_up, place
+from relieffab.layers.view import VIEWS, Placed, View, guess_up, place
 from relieffab.panel import export
 from relieffab.panel.model import Panel
 from relieffab.panel.sinking import check_clear
@@ -167,8 +167,19 @@ def model_part(mesh: Mesh, sha256: str | None) -> Part:
     }
 
 
+def margin_of(job: Job) -> float:
+    """Return how far a job's figure stays from the panel's sides, its frame included, mm."""
+    frame = stock_of(job).frame
+    return job.margin + (frame.width if frame else 0.0)
+
+
+def place_model(mesh: Mesh, view: View, job: Job) -> Placed:
+    """Lay a model on the panel of a job, inside its frame and margin."""
+    return place(mesh, view, job.size, margin=margin_of(job))
+
+
 def drawing_of(job: Job) -> Drawing:
-    """Return which lines are drawn, and how."""
+    """Return which lines a job draws, and how."""
     return Drawing(
         kinds=job.line_kinds,
         detail=job.line_detail,
@@ -178,14 +189,9 @@ def drawing_of(job: Job) -> Drawing:
     )
 
 
-def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
-    """See the model; the part is report.json's `view`."""
-    grid, stock = Grid.on_panel(job.size, job.resolution), stock_of(job)
-    framed = stock.frame.width if stock.frame else 0.0
-    placed = place(mesh, view, job.size, margin=framed + job.margin)
-    layers = layers_of(placed, grid, drawing=drawing_of(job))
-    check_clear(nodes_of(layers.mask), grid, stock, job.depth)
-    return layers, {
+def view_part(view: View, placed: Placed) -> Part:
+    """Describe a view as report.json does."""
+    return {
         "azimuth_deg": view.azimuth,
         "elevation_deg": view.elevation,
         "roll_deg": view.roll,
@@ -193,6 +199,19 @@ def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
         "up": view.up,
         "matrix": placed.matrix.tolist(),
     }
+
+
+def check_figure(mask: NDArray[np.bool_], grid: Grid, job: Job) -> None:
+    """Refuse a figure that comes too near to what the stock has of its own."""
+    check_clear(nodes_of(mask), grid, stock_of(job), job.depth)
+
+
+def make_layers(mesh: Mesh, view: View, job: Job) -> tuple[Layers, Part]:
+    """See the model; the part is report.json's `view`."""
+    grid, placed = Grid.on_panel(job.size, job.resolution), place_model(mesh, view, job)
+    layers = layers_of(placed, grid, drawing=drawing_of(job))
+    check_figure(layers.mask, grid, job)
+    return layers, view_part(view, placed)
 
 
 def write_layers(layers: Layers, job: Job, folder: Path) -> None:
@@ -348,7 +367,9 @@ def write_picture(
     """
     file, light = folder / "preview.png", light_at(*job.light)
     if panel is not None and isinstance(bent, Round):
-        return _kept(standing_picture(panel), "orthographic", file)
+        return _kept(
+            standing_picture(panel, light=light, texture=job.texture), "orthographic", file
+        )
     if panel is not None and bent is not None:
         picture = solid_picture(panel, relief.grid.pitch, light=light, texture=job.texture)
     else:

@@ -1,7 +1,7 @@
 """The programs of a job, written with all that judges them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from relieffab.job.certificate import file_hash
 from relieffab.job.chain import Planned, setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
+from relieffab.progress import Progress, silent
 from relieffab.relief.model import Relief
 from relieffab.toolpath.path import Toolpath
 
@@ -43,11 +44,8 @@ def write(
     places = []
     for position, paths in planned:
         setup = whole.at(position)
-        places.append((setup, [paced(path, setup) for path in paths]))
-    fitted = [one for _, fit in places for one in fit]
-    starving = [one.warning for one in fitted if one.warning]
-    paths_by_name = {one.path.name: one.path for one in fitted}
-    notes = [*material_notes(whole, list(paths_by_name.values())), *dict.fromkeys(starving)]
+        places.append((setup, fitted_to(paths, setup, slab)))
+    notes = notes_on(whole, [one for _, fit in places for one in fit])
     header = {**_origin(report), **_numbered(notes)}
     parts, aids = [], []
     for setup, fit in places:
@@ -73,9 +71,8 @@ def _at_position(
 ) -> list[Part]:
     """Write the programs for the stock as it lies, and cut the slab by them."""
     fitted = {one.path.name: one for one in fit}
-    paths = _eased([one.path for one in fit], setup, slab)
     parts = []
-    for name, several in _files(paths, job):
+    for name, several in _files([one.path for one in fit], job):
         file = _prefix(setup) + name
         text = write_program(several, setup, slab, header=header)
         (folder / file).write_text(text, encoding="ascii", newline="\n")
@@ -111,12 +108,28 @@ def _place(setup: Setup) -> Part:
     return {"position": asdict(setup.position), "placing": setup.position.placing}
 
 
-def _eased(paths: Sequence[Toolpath], setup: Setup, slab: Slab) -> list[Toolpath]:
-    """Ease each path on the stock that those before it leave."""
+def fitted_to(
+    paths: Sequence[Toolpath], setup: Setup, slab: Slab, progress: Progress = silent
+) -> list[Paced]:
+    """Fit the paths of a position to its machine, and to the stock that those before leave.
+
+    Parameters
+    ----------
+    paths : sequence of Toolpath
+    setup : Setup
+    slab : Slab
+        Untouched; stays so.
+    progress : Progress
+    """
     trial, found = slab.copy(), []
-    for path in paths:
-        found.append(eased(path, setup, trial))
-        trial.cut(foretold(found[-1], setup).on_panel(setup.stock), path.cutter)
+    for k, path in enumerate(paths):
+        progress("programs", k, len(paths))
+        one = paced(path, setup)
+        easy = eased(one.path, setup, trial)
+        if easy is not one.path:
+            one = replace(one, path=easy, program=foretold(easy, setup))
+        trial.cut(one.program.on_panel(setup.stock), path.cutter)
+        found.append(one)
     return found
 
 
@@ -136,7 +149,23 @@ def _aids(setup: Setup, job: Job, folder: Path) -> list[Part]:
 def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath]]]:
     if job.cutter_change == "pause":
         return [("programs.nc", list(paths))]
-    return [(f"{NUMBERS[path.name]:02d}-{path.name}.nc", [path]) for path in paths]
+    return [(_file(path), [path]) for path in paths]
+
+
+def _file(path: Toolpath) -> str:
+    return f"{NUMBERS[path.name]:02d}-{path.name}.nc"
+
+
+def file_name(setup: Setup, path: Toolpath) -> str:
+    """Name the file of a path that is a program of its own."""
+    return _prefix(setup) + _file(path)
+
+
+def notes_on(setup: Setup, fitted: Sequence[Paced]) -> list[str]:
+    """Say what a person has to know of programs: of the material, and what starves."""
+    paths = {one.path.name: one.path for one in fitted}
+    starving = [one.warning for one in fitted if one.warning]
+    return [*material_notes(setup, list(paths.values())), *dict.fromkeys(starving)]
 
 
 def _origin(report: Mapping[str, Any]) -> dict[str, str]:

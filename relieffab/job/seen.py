@@ -9,7 +9,6 @@ from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.job import chain
 from relieffab.job.settings import Job
-from relieffab.job.stocks import stock_of
 from relieffab.layers.art.art import Art
 from relieffab.layers.art.make import layers_of_art, placed_on
 from relieffab.layers.art.svg import read_svg
@@ -20,8 +19,6 @@ from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.read import read_picture
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
-from relieffab.panel.sinking import check_clear
-from relieffab.relief.model import nodes_of
 from relieffab.relief.names import LINES, SURFACE
 
 Part = dict[str, Any]
@@ -113,17 +110,12 @@ def look_at(model: Model, job: Job) -> Seen:
     return _picture(model, job, part) if isinstance(model, Picture) else _art(model, job, part)
 
 
-def _margin(job: Job) -> float:
-    frame = stock_of(job).frame
-    return job.margin + (frame.width if frame else 0.0)
-
-
 def _picture(picture: Picture, job: Job, part: Part) -> Seen:
     seen = layers_of_picture(
         picture,
         Grid.on_panel(job.size, job.resolution),
         job.size,
-        margin=_margin(job),
+        margin=chain.margin_of(job),
         showing=Showing(job.image, job.mask, job.image_depth),
         drawing=chain.drawing_of(job),
     )
@@ -136,7 +128,7 @@ def _picture(picture: Picture, job: Job, part: Part) -> Seen:
 
 
 def _art(art: Art, job: Job, part: Part) -> Seen:
-    matrix = placed_on(art, job.size, margin=_margin(job))
+    matrix = placed_on(art, job.size, margin=chain.margin_of(job))
     outlined = job.carve == LINES
     grid = Grid.on_panel(job.size, job.resolution)
     drawing = chain.drawing_of(job)
@@ -165,7 +157,5 @@ def _lines_only(job: Job, name: str) -> str:
 
 def _checked(seen: Seen, job: Job) -> Seen:
     """Refuse a figure that comes too near the panel's edge, its frame or its holes."""
-    grid = seen.layers.grid
-    mask = seen.layers.mask | (seen.layers.lines > 0)
-    check_clear(nodes_of(mask), grid, stock_of(job), job.depth)
+    chain.check_figure(seen.layers.mask | (seen.layers.lines > 0), seen.layers.grid, job)
     return seen

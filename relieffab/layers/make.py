@@ -1,5 +1,7 @@
 """Mesh and view to Layers: the first stage as one call."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,13 +9,66 @@ from relieffab.grid import Grid
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.image import line_image, spread_ink
 from relieffab.layers.lines.strokes import draw_strokes
+from relieffab.layers.lines.study import Study
 from relieffab.layers.mesh import Mesh
-from relieffab.layers.model import Layers
-from relieffab.layers.raster import rasterise
-from relieffab.layers.shading import default_lights, lambert, pixel_normals
+from relieffab.layers.model import Layers, Stroke
+from relieffab.layers.raster import Raster, rasterise
+from relieffab.layers.shading import Groups, default_lights, lambert, pixel_normals
 from relieffab.layers.view import Placed, View, place
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """What is seen of a model on the panel, before it is drawn.
+
+    Parameters
+    ----------
+    placed : Placed
+    grid : Grid
+    raster : Raster
+    normals : (rows, cols, 3) ndarray
+        At pixels, unit.
+    """
+
+    placed: Placed
+    grid: Grid
+    raster: Raster
+    normals: Floats
+
+    @classmethod
+    def of(cls, placed: Placed, grid: Grid, *, groups: Groups | None = None) -> "Sight":
+        """Look at a model; `groups` are of its corners, from `smoothing_groups`, if at hand."""
+        raster = rasterise(placed.vertices, placed.faces, grid)
+        normals = pixel_normals(raster, placed.vertices, placed.faces, grid, groups=groups)
+        return cls(placed, grid, raster, normals)
+
+    def strokes(self, drawing: Drawing, *, study: Study | None = None) -> tuple[Stroke, ...]:
+        """Draw it; `study` is of the model as it lies here, if at hand."""
+        return draw_strokes(self.placed, self.raster, self.grid, drawing, study=study)
+
+    def layers(self, strokes: tuple[Stroke, ...], drawing: Drawing) -> Layers:
+        """Put the images together, the strokes as ink.
+
+        Raises
+        ------
+        InputError
+            If no pixel shows the model.
+        """
+        mask, lights = self.raster.mask, default_lights()
+        dark = [stroke for stroke in strokes if not stroke.light]
+        ink = line_image(dark, self.grid, width=drawing.width)
+        return Layers(
+            grid=self.grid,
+            depth=np.where(mask, self.raster.depth, 0.0),
+            normals=self.normals,
+            mask=mask,
+            lights=lights,
+            shading=lambert(self.normals, lights) * mask,
+            lines=spread_ink(ink, drawing.spread, self.grid),
+            strokes=strokes,
+        )
 
 
 def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> Layers:
@@ -35,23 +90,8 @@ def layers_of(placed: Placed, grid: Grid, *, drawing: Drawing | None = None) -> 
         If no pixel shows the model.
     """
     drawing = drawing or Drawing()
-    raster = rasterise(placed.vertices, placed.faces, grid)
-    mask = raster.mask
-    normals = pixel_normals(raster, placed.vertices, placed.faces, grid)
-    lights = default_lights()
-    strokes = draw_strokes(placed, raster, grid, drawing)
-    dark = [stroke for stroke in strokes if not stroke.light]
-    ink = line_image(dark, grid, width=drawing.width)
-    return Layers(
-        grid=grid,
-        depth=np.where(mask, raster.depth, 0.0),
-        normals=normals,
-        mask=mask,
-        lights=lights,
-        shading=lambert(normals, lights) * mask,
-        lines=spread_ink(ink, drawing.spread, grid),
-        strokes=strokes,
-    )
+    sight = Sight.of(placed, grid)
+    return sight.layers(sight.strokes(drawing), drawing)
 
 
 def make_layers(

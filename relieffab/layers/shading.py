@@ -12,6 +12,11 @@ Floats = NDArray[np.float64]
 
 GRAZING = 0.02  # least share of a seen normal that points to the viewer
 Ints = NDArray[np.int64]
+Groups = tuple[Ints, int]
+"""Of corners: the split vertex at each, (f, 3), and how many there are."""
+
+CREASE = 40.0
+"""Angle between faces beyond which an edge stays sharp, degrees."""
 
 
 def default_lights() -> Floats:
@@ -45,7 +50,7 @@ def face_normals(vertices: Floats, faces: NDArray[np.integer]) -> Floats:
     return np.cross(b - a, c - a)
 
 
-def smoothing_groups(vertices: Floats, faces: Ints, crease: float) -> tuple[Ints, int]:
+def smoothing_groups(vertices: Floats, faces: Ints, crease: float = CREASE) -> Groups:
     """Split vertices where faces meet at more than the crease angle.
 
     Corners of two faces that share a smooth edge belong together; what is then
@@ -89,7 +94,12 @@ def smoothing_groups(vertices: Floats, faces: Ints, crease: float) -> tuple[Ints
 
 
 def pixel_normals(
-    raster: Raster, vertices: Floats, faces: Ints, grid: Grid, *, crease: float = 40.0
+    raster: Raster,
+    vertices: Floats,
+    faces: Ints,
+    grid: Grid,
+    *,
+    groups: Groups | None = None,
 ) -> Floats:
     """Find unit normals at the pixels, smooth over smooth edges, turned to the viewer.
 
@@ -101,8 +111,8 @@ def pixel_normals(
         On the panel, mm.
     faces : (f, 3) ndarray of int
     grid : Grid
-    crease : float
-        Angle between faces beyond which an edge stays sharp, degrees.
+    groups : tuple, optional
+        From `smoothing_groups` of the same mesh, wherever it lies; found if not given.
 
     Returns
     -------
@@ -110,7 +120,7 @@ def pixel_normals(
         (0, 0, 1) where nothing is seen.  Corner normals are weighted as in Max,
         "Weights for computing vertex normals from facet normals" (1999).
     """
-    groups, count = smoothing_groups(vertices, faces, crease)
+    corners, count = groups or smoothing_groups(vertices, faces)
     face = face_normals(vertices, faces)
     normals = np.zeros((count, 3))
     for k in range(3):
@@ -118,12 +128,12 @@ def pixel_normals(
         squares = ((after - here) ** 2).sum(1) * ((before - here) ** 2).sum(1)
         weight = np.divide(1.0, squares, out=np.zeros_like(squares), where=squares > 0)
         for axis in range(3):
-            normals[:, axis] += np.bincount(groups[:, k], face[:, axis] * weight, count)
+            normals[:, axis] += np.bincount(corners[:, k], face[:, axis] * weight, count)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normals /= np.where(length > 0, length, 1.0)
     corner_points = np.empty((count, 3))
-    corner_points[groups.ravel()] = vertices[faces.ravel()]
-    out = interpolate(raster, corner_points, groups, normals, grid)
+    corner_points[corners.ravel()] = vertices[faces.ravel()]
+    out = interpolate(raster, corner_points, corners, normals, grid)
     away = face_normals(vertices, faces)[:, 2] < 0
     out[raster.mask & away[raster.triangle]] *= -1.0
     # Interpolation may pass the horizon of a face that is seen.

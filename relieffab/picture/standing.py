@@ -15,12 +15,12 @@ from relieffab.picture.stone import (
     KEY,
     LIGHT,
     SKY,
-    STONE,
     lit,
     pixel_normals,
     sky,
     unit_light,
 )
+from relieffab.picture.texture import Texture, plain_colour
 
 Floats = NDArray[np.float64]
 
@@ -63,6 +63,7 @@ def standing_picture(
     width: int = 1600,
     turns: Sequence[float] = TURNS,
     light: ArrayLike = LIGHT,
+    texture: Texture = "stone",
 ) -> NDArray[np.uint8]:
     """Picture a standing solid, once for each way it is turned, without perspective.
 
@@ -76,6 +77,8 @@ def standing_picture(
         Degrees.
     light : (3,) array_like
         Towards the key light, from the eye's own place.
+    texture : 'stone' or 'wood'
+        Whose colour it has.
 
     Returns
     -------
@@ -93,7 +96,7 @@ def standing_picture(
         corner = middle + np.array([-cols, rows]) * (pitch / 2)
         place = (float(corner[0]), float(corner[1]))
         grid = Grid(rows * SHARPER, cols * SHARPER, pitch / SHARPER, place)
-        pictures.append(_shaded(_Seen(view, np.asarray(solid.faces)), grid, light))
+        pictures.append(_shaded(_Seen(view, np.asarray(solid.faces)), grid, light, texture))
     return np.concatenate(pictures, axis=1)
 
 
@@ -105,7 +108,7 @@ class _Seen:
     faces: NDArray[np.integer]
 
 
-def _shaded(solid: _Seen, grid: Grid, light: ArrayLike) -> NDArray[np.uint8]:
+def _shaded(solid: _Seen, grid: Grid, light: ArrayLike, texture: Texture) -> NDArray[np.uint8]:
     """Shade what is seen, and bring it down to the pixels shown."""
     heights, seen = nodes_over(solid, grid)
     hull = ConvexHull(solid.vertices).simplices
@@ -118,9 +121,9 @@ def _shaded(solid: _Seen, grid: Grid, light: ArrayLike) -> NDArray[np.uint8]:
     key, fill = (unit_light(one) for one in (light, SIDE))
     grey = KEY * np.maximum(normals @ key, 0.0) * lit(sunk, grid.pitch, key)
     grey += FROM_SIDE * np.maximum(normals @ fill, 0.0) + SKY * open_sky
-    linear = np.clip(grey, 0, 1)[..., None] * np.asarray(STONE)
-    stone = 255 * linear ** (1 / GAMMA)
-    image = np.where(seen[..., None], stone, GROUND)
+    linear = np.clip(grey, 0, 1)[..., None] * plain_colour(texture)
+    coloured = 255 * linear ** (1 / GAMMA)
+    image = np.where(seen[..., None], coloured, GROUND)
     rows, cols = image.shape[0] // SHARPER, image.shape[1] // SHARPER
     even = image.reshape(rows, SHARPER, cols, SHARPER, 3).mean(axis=(1, 3))
     return np.asarray(np.rint(even), np.uint8)

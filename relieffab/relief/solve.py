@@ -94,6 +94,22 @@ def _give_up(
     return h, descent
 
 
+def pyramid(layers: Layers) -> list[Layers]:
+    """Halve layers until no coarser grid helps: the finest first."""
+    lattices = [layers]
+    while min(cropped(lattices[-1])[0].grid.shape) > COARSEST:
+        lattices.append(halve(lattices[-1]))
+    return lattices
+
+
+def refitted(start: Solution, layers: Layers, carving: Carving) -> Solution:
+    """Make a solution a start for another carving of the same figure: its fit is found afresh.
+
+    From there the solver comes to what it comes to from nothing, within its tolerance.
+    """
+    return replace(start, fitted=fit(pyramid(layers)[-1], carving))
+
+
 def solve_heights(
     layers: Layers,
     carving: Carving,
@@ -123,9 +139,7 @@ def solve_heights(
     Solution
         Heights within the bounds, 0 outside the figure; without the wall at its edge.
     """
-    lattices = [layers]
-    while start is None and min(cropped(lattices[-1])[0].grid.shape) > COARSEST:
-        lattices.append(halve(lattices[-1]))
+    lattices = [layers] if start else pyramid(layers)
     fitted = start.fitted if start else fit(lattices[-1], carving)
     above, figure = np.zeros(0), None
     for level in reversed(lattices):

@@ -22,6 +22,7 @@ from starlette.routing import Route
 
 from relieffab.errors import InputError, RelieffabError
 from relieffab.studio import upload
+from relieffab.studio.controls import OFFERED
 from relieffab.studio.desk import Desk
 from relieffab.studio.exporting import BusyError
 from relieffab.studio.worker import SupersededError
@@ -69,9 +70,16 @@ def make_app(desk: Desk) -> Starlette:
     )
 
 
+def _fault(error: RelieffabError) -> dict[str, str]:
+    """Put an error into words for the page, with the setting it is about."""
+    where = error.parts.get("where", "")
+    setting = {"setting": where} if where in OFFERED else {}
+    return {"message": error.message, **error.parts, **setting}
+
+
 async def _told(_request: Request, error: Exception) -> Response:
     assert isinstance(error, RelieffabError)
-    return JSONResponse({"error": {"message": error.message, **error.parts}}, 422)
+    return JSONResponse({"error": _fault(error)}, 422)
 
 
 async def _superseded(_request: Request, _error: Exception) -> Response:
@@ -166,7 +174,7 @@ class _Routes:
         try:
             state = await run_in_threadpool(self._desk.export, asked.get("settings", {}))
         except BusyError as error:
-            return JSONResponse({"error": {"message": error.message, **error.parts}}, 409)
+            return JSONResponse({"error": _fault(error)}, 409)
         return JSONResponse({"export": state}, 202)
 
     async def cancel(self, _request: Request) -> Response:

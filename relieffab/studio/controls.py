@@ -1,6 +1,6 @@
 """What the page offers of the settings: in groups, with words and ranges for people."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -136,14 +136,14 @@ def _choices(form: Choices) -> list[str]:
 
 def listed() -> dict[str, list[dict[str, str]]]:
     """Name machines, materials and cutters, each with its words for people."""
-    reads = {
+    reads: dict[str, Callable[[str], Any]] = {
         "machines": profiles.machine,
         "materials": profiles.material,
         "cutters": profiles.cutter,
     }
     return {
         kind: [
-            {"name": name, "about": read(name).title}  # type: ignore[attr-defined]
+            {"name": name, "about": read(name).title}
             for name in profiles.names(kind)  # type: ignore[arg-type]
         ]
         for kind, read in reads.items()

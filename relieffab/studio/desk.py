@@ -15,9 +15,9 @@ from relieffab.studio.children import Children
 from relieffab.studio.events import Events
 from relieffab.studio.exporting import Exporter, State
 from relieffab.studio.model import Model
-from relieffab.studio.session import Session
+from relieffab.studio.session import Ask, Session
 from relieffab.studio.warm import warm
-from relieffab.studio.worker import Worker
+from relieffab.studio.worker import SupersededError, Worker
 
 
 class Desk:
@@ -36,6 +36,7 @@ class Desk:
         self.worker = Worker()
         self.children = Children()
         self.events = Events()
+        self._newest: tuple[str, dict[str, int]] = "", {}
         self.exporter = Exporter(output, self.children, self.events.publish)
 
     def close(self) -> None:
@@ -50,9 +51,9 @@ class Desk:
         """Compile what previews take, while nothing else is asked."""
         self.worker.ask("warm", warm)
 
-    def open(self, file: Path) -> None:
-        """Open a model's file."""
-        self.session.open(upload.parse(file, self.children))
+    def open(self, file: Path, *, up: str = "") -> None:
+        """Open a model's file; `up` is its axis that points up, guessed if not given."""
+        self.session.open(upload.parse(file, self.children), up=up)
 
     def open_scarab(self) -> None:
         """Open the toolkit's own scarab, as a file like any other."""
@@ -62,7 +63,7 @@ class Desk:
 
         file = self.session.new_place() / "scarab.obj"
         trimesh.Trimesh(*scarab(), process=False).export(file)
-        self.open(file)
+        self.open(file, up=chain.SCARAB_UP)
 
     def state(self) -> dict[str, Any]:
         """Say what is open, and what may be chosen."""
@@ -83,51 +84,69 @@ class Desk:
 
     def preview(self, asked: Mapping[str, Any]) -> "Future[bytes]":
         """Show layers, and the relief if that is wanted, too."""
-        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+        before = self.session.texts
+        ask, facts = self._settled("preview", asked)
         wanted = asked.get("want", ["layers", "relief"])
+        preview = self.session.fine if asked.get("fine") is True else self.session.preview
 
         def work(progress: Progress) -> bytes:
-            preview = self.session.preview
             preview.seconds = {}
             view = preview.view(ask.model, ask.job, progress)
             solved = preview.relief(ask.model, ask.job, progress) if "relief" in wanted else None
-            facts = {
-                "ask": number,
-                "seconds": preview.seconds,
-                "notes": list(ask.model.shown.notes),
-            }
-            return looks.preview_frame(view, solved, ask.job, chain.carving_of(ask.job), facts)
+            more = {"seconds": preview.seconds, "notes": list(ask.model.shown.notes)}
+            carving = chain.carving_of(ask.job)
+            return looks.preview_frame(view, solved, carving, {**facts, **more})
 
-        return self.worker.ask("preview", work)
+        # With other settings, whatever else is in work is void.
+        drops = () if self.session.texts == before else ("panel", "toolpaths")
+        return self.worker.ask("preview", work, drops=drops)
 
     def panel(self, asked: Mapping[str, Any]) -> "Future[bytes]":
         """Show the panel."""
-        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+        ask, facts = self._settled("panel", asked)
 
         def work(progress: Progress) -> bytes:
             panel = self.session.preview.panel(ask.model, ask.job, progress)
-            return looks.panel_frame(panel, {"ask": number})
+            return looks.panel_frame(panel, facts)
 
         return self.worker.ask("panel", work)
 
     def toolpaths(self, asked: Mapping[str, Any]) -> "Future[bytes]":
         """Show programs, what they leave and how long they take."""
-        ask, number = self.session.settle(asked.get("settings", {})), asked.get("ask")
+        ask, facts = self._settled("toolpaths", asked)
 
         def work(progress: Progress) -> bytes:
             start = time.perf_counter()
             solved = self.session.preview.relief(ask.model, ask.job, progress)
             tried = self.session.trial.carry_out(solved, ask.job, progress)
             seconds = {"toolpaths": time.perf_counter() - start}
-            return looks.toolpaths_frame(tried, {"ask": number, "seconds": seconds})
+            return looks.toolpaths_frame(tried, {**facts, "seconds": seconds})
 
         return self.worker.ask("toolpaths", work, report=self._reporter("toolpaths"))
 
     def carved(self, at: float) -> "Future[bytes]":
         """Show the stock at a moment of the last programs."""
-        return self.worker.ask(
-            "carved", lambda _: looks.carved_frame(self.session.trial.carved(at), at)
-        )
+        return self.worker.ask("carved", lambda _: looks.carved_frame(self.session.trial, at))
+
+    def _settled(self, kind: str, asked: Mapping[str, Any]) -> tuple[Ask, dict[str, Any]]:
+        """Take an ask's settings, if it is the newest of its page.
+
+        Raises
+        ------
+        SupersededError
+            If a later one came in first.
+        """
+        number = asked.get("ask")
+        if isinstance(number, int):
+            page = str(asked.get("page", ""))[:40]
+            if page != self._newest[0]:
+                self._newest = page, {}
+            if number < self._newest[1].get(kind, number):
+                raise SupersededError
+            self._newest[1][kind] = number
+        ask = self.session.settle(asked.get("settings", {}))
+        size = {"size_mm": list(ask.job.size), "thickness_mm": ask.job.thickness}
+        return ask, {"ask": number, **size, "depth_mm": ask.job.depth}
 
     def _reporter(self, name: str) -> Progress:
         last = 0.0

@@ -6,9 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
-from relieffab.gcode.slab import Slab
 from relieffab.grid import Grid
-from relieffab.job.settings import Job
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.panel.model import Panel
@@ -16,9 +14,10 @@ from relieffab.relief.targets import Carving, line_depth
 from relieffab.relief.window import figure_size
 from relieffab.studio.frames import pack
 from relieffab.studio.preview import Solved, View
-from relieffab.studio.trial import Run, Tried
+from relieffab.studio.trial import Run, Trial, Tried
+from relieffab.toolpath.plan import NAMES
 
-KINDS = ("rapid", "rough", "finish", "lines", "programs")
+KINDS = ("rapid", *NAMES)
 
 
 def mesh_frame(mesh: Mesh) -> bytes:
@@ -70,7 +69,7 @@ def _place(grid: Grid) -> dict[str, Any]:
 
 
 def preview_frame(
-    view: View, solved: Solved | None, job: Job, carving: Carving, facts: dict[str, Any]
+    view: View, solved: Solved | None, carving: Carving, facts: dict[str, Any]
 ) -> bytes:
     """Show layers, and the relief where it was solved for."""
     arrays = _layers(view)
@@ -80,9 +79,6 @@ def preview_frame(
     header = {
         **facts,
         **_place(view.layers.grid),
-        "size_mm": list(job.size),
-        "thickness_mm": job.thickness,
-        "depth_mm": job.depth,
         "matrix": view.part["matrix"],
         "worked_out": {
             "form_length": f"{form:.3g}mm",
@@ -104,14 +100,15 @@ def panel_frame(panel: Panel, facts: dict[str, Any]) -> bytes:
     return pack({**facts, "relief": True}, arrays)
 
 
-def carved_frame(slab: Slab, at: float) -> bytes:
-    """Show a stock as it is at a moment."""
-    return pack({"at": at, **_place(slab.grid)}, {"heights": slab.heights})
+def carved_frame(trial: Trial, at: float) -> bytes:
+    """Show a stock as it is at a moment of a trial."""
+    slab, stock = trial.carved(at)
+    size = {"size_mm": [stock.width, stock.height], "thickness_mm": stock.thickness}
+    return pack({"at": at, **size, **_place(slab.grid)}, {"heights": slab.heights})
 
 
 def _kinds(run: Run) -> NDArray[np.uint8]:
-    own = KINDS.index(run.name) if run.name in KINDS else KINDS.index("programs")
-    return np.where(run.rapid, 0, own).astype(np.uint8)
+    return np.where(run.rapid, 0, KINDS.index(run.path.name)).astype(np.uint8)
 
 
 def _outline(cutter: Cutter) -> list[list[float]]:
@@ -152,17 +149,17 @@ def toolpaths_frame(tried: Tried, facts: dict[str, Any]) -> bytes:
 
 
 def _program(run: Run) -> dict[str, Any]:
-    part = run.part
+    cutter = run.path.cutter
     return {
-        "file": part["file"],
-        "name": run.name,
-        "cutter": run.cutter.name,
-        "seconds": part["seconds"],
-        "lines": part["lines"],
-        "cut_mm": part["cut_mm"],
-        "diameter_mm": run.cutter.diameter,
-        "tip": run.cutter.shape,
-        "profile": _outline(run.cutter),
-        "rpm": part["rpm"],
-        "placing": part.get("placing", ""),
+        "file": run.file,
+        "name": run.path.name,
+        "cutter": cutter.name,
+        "seconds": run.seconds,
+        "lines": run.lines,
+        "cut_mm": run.path.cutting_length,
+        "diameter_mm": cutter.diameter,
+        "tip": cutter.shape,
+        "profile": _outline(cutter),
+        "rpm": run.path.rpm,
+        "placing": run.placing,
     }

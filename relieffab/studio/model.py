@@ -10,7 +10,7 @@ from relieffab.layers.coarser import coarser
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.view import guess_up
 
-SHOWN, TRIED = 150_000, 30_000
+SHOWN, TRIED = 150_000, 20_000
 """Triangles at most, of what the page turns and of what previews are made from."""
 
 

@@ -7,54 +7,83 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
+from relieffab.grid import Grid
 from relieffab.job import chain
 from relieffab.job.settings import Job
 from relieffab.job.stocks import stock_of
-from relieffab.layers.model import Layers
+from relieffab.layers.lines.drawing import Drawing
+from relieffab.layers.lines.strokes import visible_lengths
+from relieffab.layers.lines.study import Study
+from relieffab.layers.make import Sight
+from relieffab.layers.model import Layers, Stroke
+from relieffab.layers.shading import smoothing_groups
 from relieffab.panel.blank import Blank, drafting
 from relieffab.panel.carve import make_panel
 from relieffab.panel.model import Panel
 from relieffab.progress import Progress
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief
-from relieffab.relief.solve import Solution
+from relieffab.relief.solve import Solution, refitted
+from relieffab.relief.targets import Carving
 from relieffab.stock import Stock
 from relieffab.studio.model import Model
 
-WIDTH = 320
-"""Pixels of the longer side."""
+WIDTH, FINE = 256, 512
+"""Pixels of the longer side, while the hand moves and when it rests."""
 
 TOLERANCE = 0.05
 """Of a panel that is only looked at, mm."""
 
 Result = TypeVar("Result")
 
-SEEN = (
-    *("size", "margin", "frame", "view", "azimuth", "elevation", "roll", "perspective", "up"),
-    *("outline", "corner", "holes", "keyholes"),
+PLACED = (
+    *("size", "margin", "view", "azimuth", "elevation", "roll", "perspective", "up"),
+    *("outline", "corner", "frame", "frame_height", "frame_edge"),
+    *("holes", "hole", "countersink", "keyholes", "thickness"),
 )
-DRAWN = ("line_kinds", "line_width", "line_detail", "line_length", "line_spread")
+DRAWN = ("line_kinds", "line_detail", "line_length")
+INKED = ("line_width", "line_spread")
 SOLVED = (
     *("depth", "method", "carve", "form_length", "line_depth", "line_profile", "wall_angle"),
-    *("lines", "reachable", "line_width"),
+    *("lines", "reachable"),
 )
+"""Settings that matter to each stage, besides those of the stages before."""
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """What is seen: layers, and how the model lies on the panel."""
+    """What is seen of a model.
 
+    Parameters
+    ----------
+    sight : Sight
+    layers : Layers
+    part : dict
+        What report.json holds of it.
+    """
+
+    sight: Sight
     layers: Layers
     part: dict[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """A relief, and what it came from."""
+    """A relief, and what it came from.
+
+    Parameters
+    ----------
+    view : View
+    relief : Relief
+    solution : Solution or None
+        None where a classic method made it.
+    carving : Carving
+    """
 
     view: View
     relief: Relief
     solution: Solution | None
+    carving: Carving
 
 
 class Kept:
@@ -90,24 +119,64 @@ class Preview:
     ----------
     width : int
         Pixels of the longer side.
+    whole : bool
+        Whether from the model as the page shows it, or in fewer triangles.
     """
 
-    def __init__(self, width: int = WIDTH) -> None:
+    def __init__(self, width: int = WIDTH, *, whole: bool = False) -> None:
         self.width = width
+        self.whole = whole
         self.kept = Kept()
+        self._study: tuple[Model | None, Study | None] = None, None
         self.seconds: dict[str, float] = {}
 
     def view(self, model: Model, job: Job, progress: Progress) -> View:
-        """See a model."""
-        key = (model, _some(job, SEEN + DRAWN))
-        return self.kept.once("view", key, lambda: self._see(model, job, progress))
+        """See a model, and draw it."""
+        start = time.perf_counter()
+        tiny = small(job, self.width)
+        place = model, _some(job, PLACED)
+        sight, part = self.kept.once("sight", place, lambda: self._look(model, tiny))
+        progress("layers", 1, 3)
+        drawing = chain.drawing_of(tiny)
+        drawn = sight, _some(job, DRAWN)
+        strokes = self.kept.once("strokes", drawn, lambda: self._draw(model, sight, drawing))
+        progress("layers", 2, 3)
+        inked = drawn, _some(job, INKED)
+        view = self.kept.once(
+            "view", inked, lambda: View(sight, sight.layers(strokes, drawing), part)
+        )
+        chain.check_figure(view.layers.mask, sight.grid, tiny)
+        progress("layers", 3, 3)
+        self.seconds["layers"] = time.perf_counter() - start
+        return view
+
+    def _look(self, model: Model, job: Job) -> tuple[Sight, dict[str, Any]]:
+        mesh = model.shown if self.whole else model.tried
+        view, _ = chain.view_of(job, mesh)
+        placed = chain.place_model(mesh, view, job)
+        groups = self.kept.once(
+            "groups", model, lambda: smoothing_groups(mesh.vertices, mesh.faces)
+        )
+        grid = Grid.on_panel(job.size, job.resolution)
+        return Sight.of(placed, grid, groups=groups), chain.view_part(view, placed)
+
+    def _draw(self, model: Model, sight: Sight, drawing: Drawing) -> tuple[Stroke, ...]:
+        lengths = visible_lengths(drawing, sight.grid.pitch)
+        whose, study = self._study
+        if study is None or whose is not model or not study.serves(sight.placed, lengths):
+            edges = study.edges if study and whose is model else None
+            study = Study.of(sight.placed, lengths, edges=edges)
+            self._study = model, study
+        return sight.strokes(drawing, study=study.seen(sight.placed))
 
     def relief(self, model: Model, job: Job, progress: Progress) -> Solved:
-        """Solve for the relief; from the one before, if it is the same figure's."""
+        """Solve for the relief; from the last one, if that is of the same figure."""
         view = self.view(model, job, progress)
-        progress("layers", 1, 1)
-        key = (view, _some(job, SOLVED))
-        return self.kept.once("relief", key, lambda: self._solve(view, job, progress))
+        start = time.perf_counter()
+        key = view, _some(job, SOLVED)
+        solved = self.kept.once("relief", key, lambda: self._solve(view, job, progress))
+        self.seconds["relief"] = time.perf_counter() - start
+        return solved
 
     def panel(self, model: Model, job: Job, progress: Progress) -> Panel:
         """Carve the relief into its stock."""
@@ -115,24 +184,14 @@ class Preview:
         blank = None if stock.plain else self.kept.once("blank", stock, lambda: _blank(stock))
         return make_panel(solved.relief, stock, blank=blank, tolerance=TOLERANCE, progress=progress)
 
-    def _see(self, model: Model, job: Job, progress: Progress) -> View:
-        start = time.perf_counter()
-        progress("layers", 0, 1)
-        tiny = small(job, self.width)
-        looking, _ = chain.view_of(tiny, model.tried)
-        layers, part = chain.make_layers(model.tried, looking, tiny)
-        self.seconds["layers"] = time.perf_counter() - start
-        return View(layers, part)
-
     def _solve(self, view: View, job: Job, progress: Progress) -> Solved:
-        start = time.perf_counter()
+        carving = chain.carving_of(job)
         last: Solved | None = self.kept.last("relief")
-        warm = last.solution if last and last.view is view else None
-        relief, solution = make_relief(
-            view.layers, chain.carving_of(job), start=warm, progress=progress
-        )
-        self.seconds["relief"] = time.perf_counter() - start
-        return Solved(view, relief, solution)
+        start = None
+        if last and last.solution and last.view.sight is view.sight:
+            start = refitted(last.solution, view.layers, carving)
+        relief, solution = make_relief(view.layers, carving, start=start, progress=progress)
+        return Solved(view, relief, solution, carving)
 
 
 def _blank(stock: Stock) -> Blank:

@@ -75,7 +75,7 @@ def serve(
         desk = Desk(chosen, output)
         try:
             if chosen["model"].value is not None:
-                desk.open(Path(chosen["model"].value).resolve())
+                desk.open(Path(chosen["model"].value).resolve(), up=chosen["up"].text)
             address = f"http://{HOST}:{port}/{token}/"
             guarded = Guard(make_app(desk), token=token, port=port)
             config = uvicorn.Config(

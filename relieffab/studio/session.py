@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError
-from relieffab.job import chain
 from relieffab.job.settings import Chosen, Job, job_of, resolve
 from relieffab.studio import controls
 from relieffab.studio.model import Model
-from relieffab.studio.preview import Preview
+from relieffab.studio.preview import FINE, Preview
 from relieffab.studio.trial import Trial
+
+LONGEST = 500
+"""Letters of a setting."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,7 @@ class Session:
         self.texts = {name: one.text for name, one in chosen.items() if name in controls.OFFERED}
         self.model: Model | None = None
         self.preview = Preview()
+        self.fine = Preview(FINE, whole=True)
         self.trial = Trial()
         self.scratch = Path(tempfile.mkdtemp(prefix="relieffab-studio-"))
 
@@ -44,9 +47,10 @@ class Session:
         """Take away what lies on the disk."""
         shutil.rmtree(self.scratch, ignore_errors=True)
 
-    def open(self, model: Model) -> None:
-        """Take a model in place of the one before."""
+    def open(self, model: Model, *, up: str = "") -> None:
+        """Take a model in place of the one before; which way is up goes with it."""
         before, self.model = self.model, model
+        self.texts = {**self.texts, "up": up}
         if before and before.file.parent.parent == self.scratch:
             shutil.rmtree(before.file.parent, ignore_errors=True)
 
@@ -77,13 +81,15 @@ class Session:
         Raises
         ------
         InputError
-            If one is not to be chosen here.
+            If one is not to be chosen here or cannot be read; it says where.
         """
         for name, text in given.items():
             if name not in controls.OFFERED:
                 raise InputError("there is no such setting in the studio", found=repr(name)[:60])
-            if not isinstance(text, str) or len(text) > 200:
-                raise InputError(f"{name} is not a text", found=repr(text)[:60], where=name)
+            if not isinstance(text, str) or len(text) > LONGEST:
+                raise InputError("the setting is not a text", found=repr(text)[:60], where=name)
+            if text != self.texts[name]:
+                _check_setting(name, text)
         return {**self.texts, **given}
 
     def job_file(self) -> str:
@@ -94,9 +100,14 @@ class Session:
         lines += [f"{name} = {_quoted(text)}" for name, text in self.texts.items()]
         return "\n".join(lines) + "\n"
 
-    def check(self) -> None:
-        """Refuse a job that can be seen to fail."""
-        chain.check(job_of(resolve([("studio", self.texts)])))
+
+def _check_setting(name: str, text: str) -> None:
+    """Name the setting in what its reader says of a text."""
+    try:
+        resolve([("studio", {name: text})])
+    except InputError as fault:
+        cause = fault.__cause__ if isinstance(fault.__cause__, InputError) else fault
+        raise InputError(cause.message, **{**cause.parts, "where": name}) from fault
 
 
 def _quoted(text: str) -> str:

@@ -1,27 +1,24 @@
-"""Trial: the programs of a preview, written and carried out on a virtual stock."""
+"""Trial: the programs of a preview, carried out on a virtual stock."""
 
-import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.estimate import move_ends
-from relieffab.gcode.program import Program
-from relieffab.gcode.read import read_program
+from relieffab.gcode.pacing import Paced
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.verify import Verification, verify
 from relieffab.job import chain, programs
 from relieffab.job.settings import Job
 from relieffab.progress import Progress
+from relieffab.stock import Stock
 from relieffab.studio.preview import Solved
-from relieffab.toolpath.positions import Position
+from relieffab.toolpath.path import Toolpath
 
 Floats = NDArray[np.float64]
 
@@ -35,34 +32,51 @@ class Run:
 
     Parameters
     ----------
-    name : str
-        rough, finish or lines.
-    cutter : Cutter
+    file : str
+        That the job will write.
+    path : Toolpath
     points : (n, 3) ndarray
         Panel mm.
     ends : (n,) ndarray
         When each move ends, seconds since the first program started.
+    seconds : float
+        Of this program.
     rapid : (n,) ndarray of bool
-    part : dict
-        What report.json holds of it.
+    lines : int
+        Of its text, comments aside.
+    placing : str
+        How the stock lies; empty where it is not moved.
     """
 
-    name: str
-    cutter: Cutter
+    file: str
+    path: Toolpath
     points: Floats
     ends: Floats
+    seconds: float
     rapid: NDArray[np.bool_]
-    part: dict[str, Any]
+    lines: int
+    placing: str
 
 
 @dataclass(frozen=True, eq=False)
 class Tried:
-    """Programs and what they leave."""
+    """Programs and what they leave.
+
+    Parameters
+    ----------
+    runs : tuple of Run
+    verdict : Verification
+    notes : tuple of str
+        What a person should know.
+    states : States
+    stock : Stock
+    """
 
     runs: tuple[Run, ...]
     verdict: Verification
     notes: tuple[str, ...]
     states: "States"
+    stock: Stock
 
 
 class Trial:
@@ -72,62 +86,63 @@ class Trial:
         self.last: Tried | None = None
 
     def carry_out(self, solved: Solved, job: Job, progress: Progress) -> Tried:
-        """Plan, write, read back, judge and simulate the programs of a relief."""
+        """Plan the programs of a relief, judge them and carve a virtual stock."""
         chain.check(job)
         relief, strokes = solved.relief, solved.view.layers.strokes
         planned = chain.plan_paths(relief, strokes, job, progress)
-        report = {"model": {"name": job.model}, "settings": {}}
-        setup = chain.setup_of(job, relief.depth)
-        with tempfile.TemporaryDirectory(prefix="relieffab-") as name:
-            folder = Path(name)
-            progress("programs", 0, 1)
-            parts = programs.write(planned, relief, job, report, folder)
-            progress("programs", 1, 1)
-            texts = {
-                part["file"]: (folder / part["file"]).read_text(encoding="ascii")
-                for part in parts["programs"]
-            }
-        whole = [
-            read_program(text, name=file, dialect=setup.post.dialect)
-            for file, text in texts.items()
+        whole = chain.setup_of(job, relief.depth)
+        slab = Slab.whole(relief.grid, whole.stock)
+        fitted = [
+            (whole.at(position), one)
+            for position, paths in planned
+            for one in programs.fitted_to(paths, whole.at(position), slab, progress)
         ]
-        cutters = [Cutter(**part["cutter"]) for part in parts["programs"]]
-        positions = [_position(part) for part in parts["programs"]]
         verdict = verify(
-            whole, cutters, relief, setup, positions=positions, refine=1, progress=progress
+            [one.program for _, one in fitted],
+            [one.path.cutter for _, one in fitted],
+            relief,
+            whole,
+            positions=[setup.position for setup, _ in fitted],
+            refine=1,
+            progress=progress,
         )
-        runs = _runs(whole, cutters, positions, parts["programs"], setup)
-        states = States(runs, Slab.whole(relief.grid, setup.stock), progress)
-        notes = (*parts["material"]["notes"],)
-        self.last = Tried(runs, verdict, notes, states)
+        runs = _runs(fitted)
+        notes = programs.notes_on(whole, [one for _, one in fitted])
+        self.last = Tried(runs, verdict, tuple(notes), States(runs, slab, progress), whole.stock)
         return self.last
 
-    def carved(self, at: float) -> Slab:
-        """Give the stock as it is at a moment of the last trial."""
+    def carved(self, at: float) -> tuple[Slab, Stock]:
+        """Give what is left at a moment of the last trial, and of what stock.
+
+        Raises
+        ------
+        InputError
+            If there was none yet.
+        """
         if self.last is None:
             raise InputError("there are no toolpaths yet", hint="ask for toolpaths first")
-        return self.last.states.at(at)
+        return self.last.states.at(at), self.last.stock
 
 
-def _position(part: dict[str, Any]) -> Position | None:
-    return Position.of(part["position"]) if part.get("position") else None
-
-
-def _runs(
-    whole: list[Program],
-    cutters: list[Cutter],
-    positions: list[Position | None],
-    parts: list[dict[str, Any]],
-    setup: Setup,
-) -> tuple[Run, ...]:
+def _runs(fitted: Sequence[tuple[Setup, Paced]]) -> tuple[Run, ...]:
     runs, start = [], 0.0
-    each = [part for program in whole for part in program.by_tool()]
-    for program, cutter, position, part in zip(each, cutters, positions, parts, strict=True):
-        ends = start + move_ends(program, setup.machine)
-        points = program.on_panel(setup.at(position).stock)
-        kind = part["file"].removesuffix(".nc").rpartition("-")[2]
-        runs.append(Run(kind, cutter, points, ends, program.rapid, part))
-        start = float(ends[-1]) + float(program.dwell[-1])
+    for setup, one in fitted:
+        program, path = one.program, one.path
+        ends = move_ends(program, setup.machine)
+        seconds = float(ends[-1] + program.dwell[-1])
+        runs.append(
+            Run(
+                programs.file_name(setup, path),
+                path,
+                program.on_panel(setup.stock),
+                start + ends,
+                seconds,
+                program.rapid,
+                program.line_count,
+                setup.position.placing if setup.position else "",
+            )
+        )
+        start += seconds
     return tuple(runs)
 
 
@@ -153,7 +168,7 @@ class States:
             marks = np.unique(np.linspace(0, len(run.points) - 1, count).astype(int)).tolist()
             for first, last in pairwise(marks):
                 self._kept.append((k, first, slab.copy()))
-                slab.cut(run.points[first : last + 1], run.cutter)
+                slab.cut(run.points[first : last + 1], run.path.cutter)
                 progress("simulation", float(run.ends[last]), self.seconds, "s")
         self._kept.append((len(runs) - 1, len(runs[-1].points) - 1, slab.copy()))
 
@@ -174,5 +189,5 @@ class States:
             way = np.concatenate(
                 [way, [run.points[last] + share * (run.points[last + 1] - run.points[last])]]
             )
-        slab.cut(way, run.cutter)
+        slab.cut(way, run.path.cutter)
         return slab

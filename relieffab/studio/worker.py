@@ -1,8 +1,9 @@
 """Worker: the one thread that works things out, the newest ask first."""
 
+import contextlib
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, InvalidStateError
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -66,7 +67,7 @@ class Worker:
         ask = _Ask(kind, work, report)
         with self._change:
             if self._closed:
-                ask.future.set_exception(SupersededError())
+                _superseded(ask)
                 return ask.future
             self._drop((kind, *drops))
             self._waiting[kind] = ask
@@ -76,7 +77,7 @@ class Worker:
     def _drop(self, kinds: tuple[str, ...]) -> None:
         for kind in kinds:
             if waiting := self._waiting.pop(kind, None):
-                waiting.future.set_exception(SupersededError())
+                _superseded(waiting)
         if self._current and self._current.kind in kinds:
             self._current.dropped = True
 
@@ -100,9 +101,15 @@ class Worker:
             _carry_out(ask)
 
 
+def _superseded(ask: _Ask) -> None:
+    # Whoever asked may have gone, at any moment.
+    with contextlib.suppress(InvalidStateError):
+        ask.future.set_exception(SupersededError())
+
+
 def _carry_out(ask: _Ask) -> None:
     def heed(stage: str, done: float, total: float, unit: str = "") -> None:
-        if ask.dropped:
+        if ask.dropped or ask.future.cancelled():
             raise SupersededError
         ask.report(stage, done, total, unit)
 
@@ -110,6 +117,8 @@ def _carry_out(ask: _Ask) -> None:
         result = ask.work(heed)
         heed(ask.kind, 1, 1)
     except BaseException as fault:  # noqa: BLE001  # it belongs to whoever asked
-        ask.future.set_exception(fault)
+        with contextlib.suppress(InvalidStateError):
+            ask.future.set_exception(fault)
     else:
-        ask.future.set_result(result)
+        with contextlib.suppress(InvalidStateError):
+            ask.future.set_result(result)

@@ -1,6 +1,6 @@
 """The bench: one relief, and what still stands of the slab as cutter follows cutter."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -38,6 +38,8 @@ class Bench:
     settings : Settings
     position : Position, optional
         Whose window the cutter's axis keeps to.
+    tell : callable, optional
+        Called before each cut; work is cancelled by raising from it.
 
     Attributes
     ----------
@@ -46,11 +48,16 @@ class Bench:
     """
 
     def __init__(
-        self, relief: Terrain, settings: Settings, position: Position | None = None
+        self,
+        relief: Terrain,
+        settings: Settings,
+        position: Position | None = None,
+        tell: Callable[[], None] = lambda: None,
     ) -> None:
         self.relief = relief
         self.settings = settings
         self.position = position
+        self.tell = tell
         self.left: Floats = np.zeros(relief.heights.shape)
 
     def rough(self, cutter: Cutter, stepdown: float) -> list[Pass]:
@@ -118,6 +125,7 @@ class Bench:
         self, work: Work, trace: Trace, *, dropped: bool = False, fixed: bool = False
     ) -> list[Pass]:
         """Cut along a trace, and remember what is left after all its passes."""
+        self.tell()
         if self.position is not None:
             trace = trace.clipped(self.position.holds(*trace.xy.T))
         if len(trace) == 0:

@@ -93,15 +93,19 @@ def plan(
     check(relief, machine, used, stock or _bare_stock(relief), stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
     uses = [cutting(cutter, material, machine) for cutter in used]
+    paths: list[Toolpath] = []
+
+    def tell() -> None:
+        progress("toolpaths", len(paths), len(used), "programs")
+
     surface = marks.smooth if marks else relief
-    bench = Bench(_part(Terrain.of(surface), position, used), settings, position)
+    bench = Bench(_part(Terrain.of(surface), position, used), settings, position, tell)
     stages: list[Stage] = [bench.rough, bench.finish, partial(bench.lines, strokes=strokes)]
     if marks:
         marked = _part(Terrain.of(relief), position, used)
         stages.append(partial(bench.marks, marked=marked, lines=marks.lines))
-    paths = []
-    for k, (name, cutter, use, stage) in enumerate(zip(NAMES, used, uses, stages, strict=False)):
-        progress("toolpaths", k, len(used), "programs")
+    for name, cutter, use, stage in zip(NAMES, used, uses, stages, strict=False):
+        tell()
         parts = stage(cutter, use.stepdown)
         points, feed = link(parts, Linking(machine, use, REACH, ramp=name == "rough"))
         if len(points):

@@ -2,7 +2,7 @@
 
 - What is drawn: `names` and `drawing` say which lines and how.
 - The surface: `edges`, `creases`, `smooth` with its `aggregation`, `curvature`, `jets`,
-  `slopes`, and `surface`, which puts them together.
+  `slopes`, and `surface`, which puts them together; `study`, which turns it to any view.
 - The lines on it: `contours`, `ridges`, `highlights`, listed in `kinds`; each is the zero
   set of a field (`zeros`), joined into `chains`.
 - What is seen of them: `outline`, `visibility`, `snap`, `contrast`.

@@ -41,6 +41,16 @@ class Curvature:
     derivative: Floats
     areas: Floats
 
+    def moved(self, rotation: Floats, scale: float) -> "Curvature":
+        """Turn by a rotation, (3, 3), and scale: what is measured in 1/mm shrinks."""
+        return Curvature(
+            normals=self.normals @ rotation.T,
+            directions=self.directions @ rotation.T,
+            principal=self.principal / scale,
+            derivative=self.derivative / scale**2,
+            areas=self.areas * scale**2,
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class _Faces:

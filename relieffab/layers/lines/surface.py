@@ -1,6 +1,6 @@
 """Surface: a mesh with all that its lines are found from."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,26 @@ class Surface:
     def may_show(self, facing: Floats) -> NDArray[np.bool_]:
         """Tell from n.v whether a side that may be seen faces the eye: (n,)."""
         return facing != 0 if self.open else facing > 0
+
+    def moved(self, motion: Floats, scale: float, eye: Eye) -> "Surface":
+        """Take the surface elsewhere, turned and scaled, before another eye.
+
+        Parameters
+        ----------
+        motion : (4, 4) ndarray
+            Homogeneous: a rotation times the scale, and a shift, mm.
+        scale : float
+        eye : Eye
+        """
+        vertices = self.vertices @ motion[:3, :3].T + motion[:3, 3]
+        return replace(
+            self,
+            vertices=vertices,
+            bend=self.bend.moved(motion[:3, :3] / scale, scale),
+            radius=scale * self.radius,
+            eye=eye,
+            view=eye.towards(vertices),
+        )
 
     def in_principal_frame(self) -> tuple[Floats, Floats]:
         """Components u and w of the view along e1 and e2: (v,) each."""

@@ -24,7 +24,7 @@ def test_a_mark_in_level_ground_has_the_section_of_its_cutter(name):
     out = textured(smooth, PITCH, along_a_row(chisel.depth), cutter, 3.0)
     away = np.abs(np.arange(81) - 40) * PITCH
     want = np.minimum(-1.0 - chisel.depth + cutter.profile(away), -1.0)
-    # Nodes take means over a pixel: corners are rounded by an eighth of it where flanks stand at 45.
+    # Nodes take means over a pixel: corners are rounded by an eighth of it where flanks are at 45.
     np.testing.assert_allclose(out[:, 60], want, atol=PITCH / 8 + 1e-3)
     assert out[40, 60] == pytest.approx(-1.0 - chisel.depth, abs=2e-3)
 
