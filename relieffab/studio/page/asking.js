@@ -4,6 +4,8 @@ import { getFrame, postFrame } from "./api.js";
 import { byId } from "./dom.js";
 import { Newest } from "./newest.js";
 
+// Of two pages that are open at once, each has questions of its own.
+const PAGE = crypto.randomUUID();
 const PATIENCE_MS = 250; // before a wait is shown
 
 export class Asking {
@@ -53,6 +55,7 @@ export class Asking {
 
   /** Another model: nothing that was asked before matters. */
   forget() {
+    this.begun = false;
     for (const channel of [this.preview, this.panel, this.toolpaths, this.stock]) channel.forget();
     this.fresh = {};
   }
@@ -71,7 +74,8 @@ export class Asking {
 
   #channel(name, send) {
     return new Newest({
-      send: ({ ask, settings, want }) => send({ ask, settings, want }),
+      send: ({ ask, settings, want }) => send({ page: PAGE, ask, settings, want }),
+      again: ({ want, version }) => version === this.store.version && want.some((product) => this.wanted.includes(product)),
       show: (frame, { want, settings, version }) => {
         for (const product of want) {
           this.show[product](frame, settings);

@@ -44,7 +44,6 @@ store.listen(() => {
 
 /** Take what the studio holds: at the beginning, and after another model. */
 async function take(state) {
-  const before = model;
   model = state.model;
   byId("model-name").textContent = model?.name ?? "Open a model";
   byId("welcome").hidden = model !== null;
@@ -53,8 +52,8 @@ async function take(state) {
   document.title = model ? `${model.name} – relieffab studio` : "relieffab studio";
   if (!model) return;
   asking.forget();
-  if (before) store.touch();
   show.load(await getFrame("mesh"), model.up);
+  store.adopt({ up: state.settings.up });
   asking.begin();
   say([`${model.name}: ${model.triangles.toLocaleString("en")} triangles`, ...(model.notes ?? [])].join(" · "));
 }

@@ -10,9 +10,10 @@ export class Newest {
    * @param {function} show  (answer, question), never for an older question than one shown
    * @param {function} fail  (error, question)
    * @param {function} busy  (whether anything is asked)
+   * @param {function} again  (question): whether to ask it anew where the studio dropped it
    */
-  constructor({ send, show, fail, busy = () => {} }) {
-    Object.assign(this, { send, show, fail, busy, waiting: null, running: false });
+  constructor({ send, show, fail, busy = () => {}, again = () => true }) {
+    Object.assign(this, { send, show, fail, busy, again, waiting: null, running: false });
   }
 
   /** Ask, in place of what still waits. */
@@ -53,9 +54,9 @@ export class Newest {
     if (this.flight === flight) this.show(answer, question);
   }
 
-  /** Somebody else asked: another page, say.  Let that pass, then ask anew. */
+  /** Something more urgent came between: let that pass, then ask anew. */
   async #askAgain(question) {
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
-    this.waiting ??= { question };
+    if (this.again(question)) this.waiting ??= { question };
   }
 }

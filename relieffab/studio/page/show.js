@@ -102,7 +102,7 @@ export class Show {
 
   toolpaths(frame, settings) {
     this.views.toolpaths.show(frame, settings);
-    this.views.deviation.show(frame);
+    this.views.deviation.show(frame, settings);
     this.trays.deviation.hidden = false;
     this.deviation.load(frame);
     this.player.load(frame);

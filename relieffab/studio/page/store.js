@@ -65,9 +65,9 @@ export class Store {
     this.#travel(this.#future, this.#past);
   }
 
-  /** Count a change that is none of a setting's: another model. */
-  touch() {
-    this.version += 1;
+  /** Take what came with another model: no step of the person's, so none to undo. */
+  adopt(settings) {
+    this.#apply({ ...this.settings, ...settings });
   }
 
   #travel(from, to) {

@@ -1,5 +1,6 @@
 // What carving leaves beside what was wanted: blue too deep, red left standing.
 
+import { pair } from "../quantity.js";
 import { FlatView, plain } from "./flat.js";
 
 export class DeviationView extends FlatView {
@@ -23,13 +24,13 @@ export class DeviationView extends FlatView {
     });
   }
 
-  show(frame) {
+  show(frame, settings) {
     const array = frame.arrays.deviation;
     const [rows, cols] = array.shape;
     const { pitch_mm: pitch } = frame;
     const [x, y] = frame.origin_mm;
     this.colouring.uniforms.limit.value = frame.deviation_mm.limit;
     const half = pitch / 2; // values are at nodes: each stands for the pixel round it
-    this.take(array, [x - half, y - (rows - 0.5) * pitch, x + (cols - 0.5) * pitch, y + half], frame.size_mm);
+    this.take(array, [x - half, y - (rows - 0.5) * pitch, x + (cols - 0.5) * pitch, y + half], pair(settings.size));
   }
 }

@@ -13,13 +13,13 @@ export class PanelView extends SolidView {
     this.solid = null;
   }
 
-  show({ arrays, size_mm: size, thickness_mm: thickness }, settings) {
+  show({ arrays }, settings) {
     if (this.solid) dispose(this.solid);
     this.solid = new Mesh(creased(arrays.positions.data, arrays.indices.data), stone());
     this.solid.frustumCulled = false;
     dressed(this.solid.material, settings.material);
     this.scene.add(this.solid);
-    this.bound(size, thickness);
+    this.bound(settings);
     this.relight(this.sun.direction);
   }
 

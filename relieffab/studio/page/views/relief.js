@@ -12,11 +12,10 @@ export class ReliefView extends SolidView {
     this.scene.add(this.slab.object);
   }
 
-  show({ arrays, pitch_mm: pitch, origin_mm: origin, size_mm: size, thickness_mm: thickness }, settings) {
-    this.bound(size, thickness);
+  show({ arrays, pitch_mm: pitch, origin_mm: origin }, settings) {
+    this.bound(settings);
     this.slab.dress(settings.material);
-    this.slab.update(arrays.heights, { pitch, origin, thickness });
-    this.heights = arrays.heights;
+    this.slab.update(arrays.heights, { pitch, origin, thickness: this.rig.size[2] });
   }
 
   relight(direction) {

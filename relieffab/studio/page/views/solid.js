@@ -1,6 +1,7 @@
 // What all views of a solid share: walking round it, and a light.
 
 import { Scene, Vector3 } from "../three.js";
+import { pair, quantity } from "../quantity.js";
 import { OrbitRig } from "../rigs.js";
 
 export class SolidView {
@@ -25,9 +26,9 @@ export class SolidView {
     this.towards.set(...direction);
   }
 
-  /** Take the panel's bounds for looking at: width, height and thickness, mm. */
-  bound(size, thickness) {
-    this.rig.size = [...size, thickness];
+  /** Take the panel's bounds for looking at, of settings that the studio could read. */
+  bound({ size, thickness }) {
+    this.rig.size = [...pair(size), quantity(thickness, "mm")];
   }
 
   turn(dx, dy) {

@@ -32,7 +32,7 @@ export class ToolpathView extends SolidView {
   show(frame, settings) {
     for (const old of [this.paths, this.tool]) if (old) dispose(old);
     this.tool = null;
-    this.bound(frame.size_mm, frame.thickness_mm);
+    this.bound(settings);
     this.frame = frame;
     this.total = frame.seconds_total;
     this.slab.dress(settings.material);

@@ -1,0 +1,167 @@
+"""The studio's page in a real browser: one studio and one browser for all tests here."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
+ARGUMENTS = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",  # WebGL without a graphics card
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--js-flags=--expose-gc",
+    "--enable-precise-memory-info",
+]
+WINDOW = {"width": 1100, "height": 720}
+PATIENCE = 240.0  # seconds: a studio that has never run compiles first
+
+
+class Person:
+    """Somebody before the page, who sees what it shows and hears what it complains of."""
+
+    def __init__(self, page, url):
+        self.page = page
+        self.url = url
+        self.faults = []
+        page.on("console", self._hear)
+        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.goto(url)
+
+    def _hear(self, message):
+        # A refused ask is told on the page; the browser writes it down, too.
+        refused = message.text.startswith("Failed to load resource: the server responded")
+        if message.type in ("error", "warning") and not refused:
+            self.faults.append(message.text)
+
+    def sees(self, expression):
+        """What an expression comes to on the page."""
+        return self.page.evaluate(expression)
+
+    def waits(self, expression, seconds=PATIENCE):
+        """Wait until an expression holds; by asking, for the page's policy forbids `eval`."""
+        end = time.monotonic() + seconds
+        while not self.sees(expression):
+            assert time.monotonic() < end, f"never came true: {expression}"
+            self.page.wait_for_timeout(30)
+
+    def calm(self):
+        """Wait until what is shown is of the settings as they stand."""
+        self.waits(
+            "document.getElementById('view').getAttribute('aria-busy') === 'false' &&"
+            " document.getElementById('view').dataset.shown === String(studio.store.version)"
+        )
+
+    def opens(self, file):
+        """Choose a model's file, and wait until it is shown."""
+        before = self.sees("studio.store.version + studio.asking.count")
+        self.page.set_input_files("#file", file)
+        self.waits(f"studio.store.version + studio.asking.count > {before}")
+        self.calm()
+
+    def goes_to(self, tab):
+        """Choose a tab, and wait until it shows what fits."""
+        self.page.click(f"#tab-{tab}")
+        self.calm()
+
+    def heights(self):
+        """The relief as it is shown, mm."""
+        field = self.sees(
+            "(({heights, rows, cols}) => ({heights: [...heights], rows, cols}))"
+            "(studio.show.views.relief.slab.field)"
+        )
+        return np.array(field["heights"], np.float32).reshape(field["rows"], field["cols"])
+
+    def picture(self):
+        """The view, as a PNG file."""
+        self.page.wait_for_timeout(120)
+        return self.page.locator("#view").screenshot()
+
+    def setting(self, name):
+        return self.sees(f"studio.store.settings[{json.dumps(name)}]")
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """A browser without a window; a test is skipped where there is none."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if CHROMIUM is None:
+        pytest.skip("chromium is not installed; .ci/run does")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield browser
+        browser.close()
+
+
+class Studio:
+    """A studio in a process of its own."""
+
+    def __init__(self, output):
+        self.output = output
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "relieffab", "studio", "--no-browser", "-o", str(output)]
+            + ["--size", "60x45mm", "--resolution", "240x180", "--line-length", "2mm"],
+            stdout=subprocess.PIPE,
+            text=True,
+            cwd=output.parent,
+            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])},
+        )
+        self.url = self.process.stdout.readline().split()[-1]
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait(timeout=30)
+
+
+@pytest.fixture(scope="session")
+def studio(browser, tmp_path_factory):
+    studio = Studio(tmp_path_factory.mktemp("studio") / "out")
+    yield studio
+    studio.end()
+
+
+@pytest.fixture(scope="session")
+def model(tmp_path_factory):
+    """The scarab, coarsely, as a file of triangles alone."""
+    import trimesh
+
+    from relieffab.subject import scarab
+
+    mesh = scarab(cell=1.1)
+    path = tmp_path_factory.mktemp("model") / "scarab.stl"
+    trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(path)
+    return path
+
+
+@pytest.fixture
+def person(browser, studio):
+    """Somebody who has just opened the page; whatever it complained of fails the test."""
+    context = browser.new_context(viewport=WINDOW, accept_downloads=True)
+    person = Person(context.new_page(), studio.url)
+    person.waits("studio.store.version > 0 && document.querySelectorAll('.field').length > 0")
+    yield person
+    context.close()
+    assert person.faults == []
+
+
+@pytest.fixture
+def carver(person, model):
+    """Somebody with the scarab before them, settings as they are by default."""
+    person.opens(model)
+    default = {"up": "y", "azimuth": "", "elevation": "", "roll": "0deg", "depth": "3mm"}
+    person.sees(f"studio.store.change({json.dumps(default)})")
+    person.calm()
+    return person
