@@ -8,7 +8,7 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain, tip_heights
-from relieffab.toolpath.passes import Work, bridges, passes
+from relieffab.toolpath.passes import Ground, Work, bridges, passes
 from relieffab.toolpath.remains import after
 from relieffab.toolpath.trace import SKIN, sample
 
@@ -25,7 +25,7 @@ def pit():
 @pytest.fixture
 def work():
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    return Work(Terrain.over(GRID, pit()), slab, BALL, 0.5, SKIN, 0.004, 0.02, 0.05)
+    return Work(Ground(Terrain.over(GRID, pit()), BALL, SKIN), slab, 0.5, 0.004, 0.02, 0.05)
 
 
 def heights_along(runs, x):
