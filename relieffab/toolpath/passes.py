@@ -171,23 +171,23 @@ def runs_of(trace: Trace) -> list[Floats]:
     return np.split(points, np.flatnonzero(~trace.joined) + 1)
 
 
-def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
-    """Follow straight lines from one run's end to the next one's start, at the pass's depth.
+def at_depth(part: Pass, lines: list[Floats]) -> list[Floats]:
+    """Follow lines that are none of the runs at the pass's depth.
 
     Parameters
     ----------
     part : Pass
-    pairs : list of (2, 2) ndarray
-        X and Y of both ends, mm.
+    lines : list of (k, 2) ndarray
+        X and Y, mm.
 
     Returns
     -------
     list of (k, 3) ndarray
     """
-    if not pairs:
+    if not lines:
         return []
     work = part.work
-    low, top = work.follow(sample(pairs, work.step))
+    low, top = work.follow(sample(lines, work.step))
     return runs_of(simplify(work.level(low, top, part.number), work.tolerance))
 
 
