@@ -12,7 +12,7 @@ from relieffab.toolpath import remains
 from relieffab.toolpath.engrave import stroke_trace
 from relieffab.toolpath.envelope import Terrain
 from relieffab.toolpath.finish import finish_rows, scallop_stepover
-from relieffab.toolpath.passes import Pass, Work, passes
+from relieffab.toolpath.passes import Ground, Pass, Work, passes
 from relieffab.toolpath.pencil import creases
 from relieffab.toolpath.positions import Position
 from relieffab.toolpath.rough import rough_passes, rough_work
@@ -59,6 +59,7 @@ class Bench:
         self.position = position
         self.tell = tell
         self.left: Floats = np.zeros(relief.heights.shape)
+        self._ground: Ground | None = None
 
     def rough(self, cutter: Cutter, stepdown: float) -> list[Pass]:
         """Clear most of the stock, level by level."""
@@ -119,7 +120,9 @@ class Bench:
         step = min(grid.pitch / 2, 0.2 * max(narrow, 0.1))
         stock = Terrain.over(grid, self.left)
         tolerance = self.settings.tolerance
-        return Work(self.relief, stock, cutter, stepdown, SKIN, tolerance, least, step)
+        if self._ground is None or self._ground.cutter != cutter:
+            self._ground = Ground(self.relief, cutter, SKIN)
+        return Work(self._ground, stock, stepdown, tolerance, least, step)
 
     def _cut(
         self, work: Work, trace: Trace, *, dropped: bool = False, fixed: bool = False

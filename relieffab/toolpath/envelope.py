@@ -82,7 +82,7 @@ def tip_heights(
     row, col = terrain.grid.to_index(np.asarray(x, float), np.asarray(y, float))
     pitch = terrain.grid.pitch
     row, col = np.broadcast_arrays(row, col)
-    top = float(terrain.cell_top.max())
+    top = float(terrain.block_top.max())
     tips = np.full(row.shape, -np.inf)
     for outline, up in _bodies(terrain, cutter, allowance):
         out = np.empty(row.shape)

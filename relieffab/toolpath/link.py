@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.machine import Cutting, Machine
+from relieffab.toolpath.entry import entry
 from relieffab.toolpath.order import arrange
-from relieffab.toolpath.passes import Pass, bridges
+from relieffab.toolpath.passes import Pass, at_depth
 
 Floats = NDArray[np.float64]
 
@@ -23,9 +24,6 @@ HOP = 0.5
 """Height above the face of short ways from cut to cut, mm."""
 
 _SHORT = 30.0
-
-_RAMP = 0.15
-_SHORTEST_RAMP = 0.3
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ def link(parts: Iterable[Pass], linking: Linking) -> tuple[Floats, Floats]:
                 moves.append((between(joins[k], moves[-1][0][-1], run[0]), False))
             else:
                 moves.append((_approach(run, moves[-1][0][-1] if moves else None, safe), True))
-                moves.append((_ramped(run, ceilings[k]) if linking.ramp else run[:0], False))
+                moves.append((entry(part, run, ceilings[k]) if linking.ramp else run[:0], False))
             moves.append((run, False))
     if not moves:
         return np.zeros((0, 3)), np.zeros(0)
@@ -98,7 +96,7 @@ def _joins(part: Pass, runs: list[Floats], reach: float) -> dict[int, Floats]:
         k for k in range(1, len(runs)) if np.hypot(*(runs[k][0, :2] - runs[k - 1][-1, :2])) <= reach
     ]
     pairs = [np.stack([runs[k - 1][-1, :2], runs[k][0, :2]]) for k in near]
-    return dict(zip(near, bridges(part, pairs), strict=True))
+    return dict(zip(near, at_depth(part, pairs), strict=True))
 
 
 def between(way: Floats, start: Floats, end: Floats) -> Floats:
@@ -122,43 +120,6 @@ def _approach(run: Floats, here: Floats | None, safe: float) -> Floats:
         safe = min(safe, HOP)
     down = [[x, y, safe], [x, y, max(CLEARANCE, z)]]
     return np.array(down if here is None else [[here[0], here[1], safe], *down])
-
-
-def _ramped(run: Floats, ceiling: float) -> Floats:
-    """Slope down along a run, to and fro if need be, and come back to its start.
-
-    Parameters
-    ----------
-    run : (k, 3) ndarray
-    ceiling : float
-        Height of the stock at the run's start: where the slope begins, mm.
-
-    Returns
-    -------
-    (m, 3) ndarray
-        Nowhere below the run; empty where the run is gentle, or too short to slope along.
-    """
-    steps = np.hypot(*np.diff(run[:, :2], axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    length, z = along[-1], run[:, 2]
-    deepest = z[along * _RAMP <= ceiling - z.min()].min(initial=ceiling)
-    way = (ceiling - deepest) / _RAMP
-    sloping = ceiling - _RAMP * along
-    if length < _SHORTEST_RAMP or (sloping <= z + CLEARANCE * _RAMP)[along <= way].all():
-        return run[:0]
-    legs = int(np.ceil(way / length))
-    stop = way / legs
-    part = np.append(along[along < stop - 1e-9], stop)
-    leg = np.column_stack([np.interp(part, along, run[:, axis]) for axis in range(3)])
-    points = []
-    for number in range(legs):
-        forward = number % 2 == 0
-        path, travelled = (leg, part) if forward else (leg[::-1], stop - part[::-1])
-        height = np.maximum(path[:, 2], ceiling - _RAMP * (number * stop + travelled))
-        points.append(np.column_stack([path[:, :2], height]))
-    if legs % 2 == 1:
-        points.append(leg[::-1])
-    return np.concatenate(points)
 
 
 def _feeds(points: Floats, rapid: NDArray[np.bool_], linking: Linking) -> Floats:

@@ -170,3 +170,18 @@ def smooth_below(outline: Floats) -> float:
             return slope
         slope = end
     return slope
+
+
+def bulge_of(outline: Floats) -> float:
+    """Largest b for which a cutter is nowhere lower than b r², r from its axis.
+
+    That takes no root to compute.  Height over r² grows along an arc about the axis
+    and falls along a line: it is least where pieces meet.
+    """
+    first = outline[0]
+    if first[ARC] == 0 and first[SLOPE] == 0:
+        return 0.0
+    least = min(height_at(outline, r) / r**2 for r in outline[:, R1])
+    if first[ARC] > 0:
+        least = min(least, 0.5 / first[ARC])
+    return float(least) * (1 - 1e-9)

@@ -17,34 +17,21 @@ Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
-    """One cutter before one relief, with the stock as it stands by then.
+class Ground:
+    """What one cutter goes no lower than: a relief, and a distance from it.
 
     Parameters
     ----------
-    relief, stock : Terrain
-        What is wanted, and what still stands.
+    relief : Terrain
+        What is wanted.
     cutter : Cutter
-    stepdown : float
-        Deepest single pass, mm.
     allowance : float
         Distance kept from the relief on every side, mm.
-    tolerance : float
-        Of simplification, mm.
-    least : float
-        Cuts shallower than this are not worth a move, mm.
-    step : float
-        Distance of samples along a line, mm.
     """
 
     relief: Terrain
-    stock: Terrain
     cutter: Cutter
-    stepdown: float
     allowance: float
-    tolerance: float
-    least: float
-    step: float
 
     def low(self, places: Places) -> Floats:
         """(rows, count) cutter locations at rows of places, mm."""
@@ -54,6 +41,43 @@ class Work:
     def low_at_nodes(self) -> Floats:
         """(rows + 1, cols + 1) cutter locations at the relief's nodes, mm."""
         return self.low(nodes(self.relief.grid))
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """One cutter before one relief, with the stock as it stands by then.
+
+    Parameters
+    ----------
+    ground : Ground
+    stock : Terrain
+        What still stands.
+    stepdown : float
+        Deepest single pass, mm.
+    tolerance : float
+        Of simplification, mm.
+    least : float
+        Cuts shallower than this are not worth a move, mm.
+    step : float
+        Distance of samples along a line, mm.
+    """
+
+    ground: Ground
+    stock: Terrain
+    stepdown: float
+    tolerance: float
+    least: float
+    step: float
+
+    @property
+    def relief(self) -> Terrain:
+        """What is wanted."""
+        return self.ground.relief
+
+    @property
+    def cutter(self) -> Cutter:
+        """What cuts."""
+        return self.ground.cutter
 
     def top(self, places: Places) -> Floats:
         """(rows, count) heights at which the cutter would first touch the stock, mm."""
@@ -71,7 +95,8 @@ class Work:
         ndarray
             (n,) height at which the cutter would first touch the stock, mm.
         """
-        low = follow(self.relief, self.cutter, trace, allowance=self.allowance, dropped=dropped)
+        allowance = self.ground.allowance
+        low = follow(self.relief, self.cutter, trace, allowance=allowance, dropped=dropped)
         top = np.full(len(low), np.nan) if low.top is None else low.top.copy()
         new = np.isnan(top)
         if not self.stock.heights.any():
@@ -146,23 +171,23 @@ def runs_of(trace: Trace) -> list[Floats]:
     return np.split(points, np.flatnonzero(~trace.joined) + 1)
 
 
-def bridges(part: Pass, pairs: list[Floats]) -> list[Floats]:
-    """Follow straight lines from one run's end to the next one's start, at the pass's depth.
+def at_depth(part: Pass, lines: list[Floats]) -> list[Floats]:
+    """Follow lines that are none of the runs at the pass's depth.
 
     Parameters
     ----------
     part : Pass
-    pairs : list of (2, 2) ndarray
-        X and Y of both ends, mm.
+    lines : list of (k, 2) ndarray
+        X and Y, mm.
 
     Returns
     -------
     list of (k, 3) ndarray
     """
-    if not pairs:
+    if not lines:
         return []
     work = part.work
-    low, top = work.follow(sample(pairs, work.step))
+    low, top = work.follow(sample(lines, work.step))
     return runs_of(simplify(work.level(low, top, part.number), work.tolerance))
 
 

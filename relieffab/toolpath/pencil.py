@@ -33,7 +33,7 @@ def creases(work: Work) -> list[Floats]:
         X and Y, mm.
     """
     places = nodes(work.relief.grid)
-    low = work.low_at_nodes
+    low = work.ground.low_at_nodes
     kinked = kinks(low) > KINK * work.relief.grid.pitch
     x, y = places.xy()
     top = tip_heights(work.stock, work.cutter, x[kinked], y[kinked])

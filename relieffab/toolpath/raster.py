@@ -102,7 +102,7 @@ def rows(work: Work, where: Bools, angle: float, stepover: float) -> Trace:
     if not where.any():
         return _nothing()
     places = cover(work.relief.grid, where, angle, stepover, work.step)
-    low, top = work.low(places), work.top(places)
+    low, top = work.ground.low(places), work.top(places)
     picked = over_pixels(work.relief.grid, where, places) & (top - low > work.least)
     return trace_of(places, _joined(picked, places), low, top)
 
@@ -142,14 +142,14 @@ def graded_rows(work: Work, where: Bools, angle: float, apart: float) -> Graded:
     if not where.any():
         return Graded(_nothing(), np.zeros(grid.shape, bool))
     wide = cover(grid, where, angle, apart, 2 * work.step)
-    gaps = _gaps(work.low(wide), wide.stepover)
+    gaps = _gaps(work.ground.low(wide), wide.stepover)
     over = over_pixels(grid, where, wide)
     seen = gaps[over[1:] & over[:-1]]
     usual = float(np.median(seen)) if seen.size else wide.stepover
     base = cover(grid, where, angle, max(apart * wide.stepover / usual, apart / 2), work.step)
     fine = Places(base.start, angle, base.step, base.stepover / BETWEEN,
                   BETWEEN * (base.rows - 1) + 1, base.count)  # fmt: skip
-    low, top = work.low(fine), work.top(fine)
+    low, top = work.ground.low(fine), work.top(fine)
     gaps = np.pad(_gaps(low[::BETWEEN], base.stepover), ((0, 1), (0, 0)), constant_values=0.0)
     asked = np.ceil(gaps / apart - 0.02)
     steep = asked > BETWEEN

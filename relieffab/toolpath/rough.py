@@ -6,7 +6,7 @@ import numpy as np
 
 from relieffab.cutter import Cutter
 from relieffab.toolpath.envelope import Places, Terrain
-from relieffab.toolpath.passes import Pass, Work, one_pass
+from relieffab.toolpath.passes import Ground, Pass, Work, one_pass
 from relieffab.toolpath.positions import Position
 from relieffab.toolpath.trace import sample
 from relieffab.toolpath.waterline import offsets
@@ -32,7 +32,8 @@ def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: floa
     """
     slab = Terrain.over(relief.grid, np.zeros(relief.grid.node_shape))
     step = min(relief.grid.pitch, allowance)
-    return Work(relief, slab, cutter, stepdown, allowance, _TOLERANCE, _LEAST, step)
+    ground = Ground(relief, cutter, allowance)
+    return Work(ground, slab, stepdown, _TOLERANCE, _LEAST, step)
 
 
 def rough_passes(
@@ -54,7 +55,7 @@ def rough_passes(
     grid, step = work.relief.grid, _LATTICE * work.cutter.diameter
     rows, count = (ceil(side * grid.pitch / step) + 1 for side in grid.shape)
     places = Places(grid.origin, 0.0, step, step, rows, count)
-    above = work.top(places) - work.low(places)
+    above = work.top(places) - work.ground.low(places)
     if position is not None:
         above[~position.holds(*places.xy())] = 0.0
     found: list[Pass] = []

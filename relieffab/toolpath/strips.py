@@ -39,7 +39,7 @@ def strips(work: Work, apart: float) -> list[Floats]:
         X and Y, mm.
     """
     places = nodes(work.relief.grid)
-    low = work.low_at_nodes
+    low = work.ground.low_at_nodes
     above = work.top(places) - low
     there = above > work.least
     if not there.any():

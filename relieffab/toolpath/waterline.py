@@ -39,7 +39,7 @@ def waterlines(work: Work, steep: Bools, apart: float) -> list[Floats]:
     if not steep.any():
         return []
     places = nodes(work.relief.grid)
-    low = work.low_at_nodes
+    low = work.ground.low_at_nodes
     near = binary_dilation(steep, iterations=2)
     count = ceil(-float(low.min()) / apart)
     lines = []

@@ -8,7 +8,7 @@ from relieffab.grid import Grid
 from relieffab.machine import Cutting, Machine
 from relieffab.toolpath.envelope import Terrain, tip_heights
 from relieffab.toolpath.link import CLEARANCE, HOP, Linking, between, link
-from relieffab.toolpath.passes import Pass, Work, passes
+from relieffab.toolpath.passes import Ground, Pass, Work, passes
 from relieffab.toolpath.trace import SKIN, sample
 
 GRID = Grid(100, 160, 0.1, (0.0, 10.0))
@@ -26,7 +26,7 @@ def slots():
 
 def motion_of(stepdown, ramp):
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    work = Work(Terrain.over(GRID, slots()), slab, FLAT, stepdown, SKIN, 0.004, 0.02, 0.05)
+    work = Work(Ground(Terrain.over(GRID, slots()), FLAT, SKIN), slab, stepdown, 0.004, 0.02, 0.05)
     lines = [np.array([[1.5, y], [14.5, y]]) for y in np.arange(0.5, 10, 0.4)]
     low, top = work.follow(sample(lines, work.step))
     linking = Linking(MACHINE, USE, reach=0.6, ramp=ramp)
@@ -69,7 +69,7 @@ def test_descents_keep_to_the_plunge_feed(motion):
 
 def test_long_ways_are_made_at_the_safe_height_and_short_ones_in_a_hop():
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    work = Work(slab, slab, FLAT, 1.0, SKIN, 0.004, 0.02, 0.05)
+    work = Work(Ground(slab, FLAT, SKIN), slab, 1.0, 0.004, 0.02, 0.05)
     runs = [np.array([[x, 0.0, -1.0], [x + 1.0, 0.0, -1.0]]) for x in (0.0, 9.0, 60.0)]
     part = Pass(work, 1, runs, np.zeros((3, 2)), fixed=True)
     points, feed = link([part], Linking(MACHINE, USE, reach=2.0))

@@ -8,7 +8,7 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain, tip_heights
-from relieffab.toolpath.passes import Work, bridges, passes
+from relieffab.toolpath.passes import Ground, Work, at_depth, passes
 from relieffab.toolpath.remains import after
 from relieffab.toolpath.trace import SKIN, sample
 
@@ -25,7 +25,7 @@ def pit():
 @pytest.fixture
 def work():
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    return Work(Terrain.over(GRID, pit()), slab, BALL, 0.5, SKIN, 0.004, 0.02, 0.05)
+    return Work(Ground(Terrain.over(GRID, pit()), BALL, SKIN), slab, 0.5, 0.004, 0.02, 0.05)
 
 
 def heights_along(runs, x):
@@ -68,11 +68,11 @@ def test_nothing_is_cut_where_nothing_stands(work):
     assert list(passes(done, low, top)) == []
 
 
-def test_bridges_stay_above_what_their_pass_may_reach(work):
+def test_lines_at_depth_stay_above_what_their_pass_may_reach(work):
     low, top = work.follow(sample([ROW], work.step))
     part = next(iter(passes(work, low, top)))
     pair = np.array([[2.0, 3.0], [2.3, 3.4]])
-    (bridge,) = bridges(part, [pair])
+    (bridge,) = at_depth(part, [pair])
     assert np.allclose(bridge[[0, -1], :2], pair)
     assert bridge[:, 2].min() >= -0.5
-    assert bridges(part, []) == []
+    assert at_depth(part, []) == []

@@ -5,7 +5,7 @@ import numpy as np
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain
-from relieffab.toolpath.passes import Work
+from relieffab.toolpath.passes import Ground, Work
 from relieffab.toolpath.pencil import chains, creases, kinks
 from relieffab.toolpath.trace import SKIN, sample
 
@@ -15,7 +15,7 @@ BALL = Cutter("c", "ball", 1.0, 9.0, 1.0, 800.0, 200.0, 9000.0)
 
 def work_over(heights):
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    return Work(Terrain.over(GRID, heights), slab, BALL, 1.0, SKIN, 0.004, 0.01, 0.05)
+    return Work(Ground(Terrain.over(GRID, heights), BALL, SKIN), slab, 1.0, 0.004, 0.01, 0.05)
 
 
 def test_a_valley_has_its_crease_along_its_bottom():

@@ -7,7 +7,7 @@ from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain, tip_heights
 from relieffab.toolpath.finish import scallop_stepover
-from relieffab.toolpath.passes import Work
+from relieffab.toolpath.passes import Ground, Work
 from relieffab.toolpath.raster import graded_rows, rows, standing
 from relieffab.toolpath.trace import SKIN
 
@@ -38,7 +38,7 @@ def test_what_is_done_is_left_alone():
 
 def work_over(heights, cutter=BALL, least=0.01):
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    return Work(Terrain.over(GRID, heights), slab, cutter, 1.0, SKIN, 0.004, least, 0.05)
+    return Work(Ground(Terrain.over(GRID, heights), cutter, SKIN), slab, 1.0, 0.004, least, 0.05)
 
 
 EVERYWHERE = np.ones(GRID.shape, bool)

@@ -6,7 +6,7 @@ import pytest
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Terrain, nodes, tip_surface
-from relieffab.toolpath.passes import Work
+from relieffab.toolpath.passes import Ground, Work
 from relieffab.toolpath.remains import after
 from relieffab.toolpath.strips import from_border, strips
 from relieffab.toolpath.trace import SKIN, sample
@@ -23,7 +23,7 @@ def pit_work():
     tips = tip_surface(relief, BALL, nodes(GRID))
     at = np.column_stack([x.ravel(), y.ravel(), tips.ravel()])
     left = after(np.zeros(GRID.node_shape), GRID, BALL, at)
-    return Work(relief, Terrain.over(GRID, left), FINE, 2.0, SKIN, 0.004, 0.04, 0.05)
+    return Work(Ground(relief, FINE, SKIN), Terrain.over(GRID, left), 2.0, 0.004, 0.04, 0.05)
 
 
 def test_strips_clear_what_stands_and_stay_near_it():
@@ -31,7 +31,7 @@ def test_strips_clear_what_stands_and_stay_near_it():
     lines = strips(work, 0.15)
     low, _ = work.follow(sample(lines, work.step))
     left = after(work.stock.heights, GRID, FINE, np.column_stack([low.xy, low.z]))
-    best = tip_surface(Terrain.over(GRID, left), FINE, nodes(GRID)) - work.low(nodes(GRID))
+    best = tip_surface(Terrain.over(GRID, left), FINE, nodes(GRID)) - work.ground.low(nodes(GRID))
     assert np.quantile(best, 0.999) < 0.06
     # Over the middle of the floor the larger ball left nothing.
     assert not (np.abs(low.xy - 4).max(axis=1) < 1.0).any()
@@ -39,7 +39,7 @@ def test_strips_clear_what_stands_and_stay_near_it():
 
 def test_nothing_standing_has_no_strips():
     work = pit_work()
-    done = Work(work.relief, work.relief, FINE, 2.0, SKIN, 0.004, 0.5, 0.05)
+    done = Work(Ground(work.relief, FINE, SKIN), work.relief, 2.0, 0.004, 0.5, 0.05)
     assert strips(done, 0.15) == []
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.toolpath.envelope import Places, Terrain
-from relieffab.toolpath.passes import Work
+from relieffab.toolpath.passes import Ground, Work
 from relieffab.toolpath.trace import SKIN
 from relieffab.toolpath.waterline import length, offsets, waterlines
 
@@ -20,7 +20,7 @@ def bowl_work():
     x, y = np.meshgrid(*GRID.node_axes())
     heights = np.clip(1.732 * (np.hypot(x - 4, y - 4) - 3.0), -2.0, 0.0)
     slab = Terrain.over(GRID, np.zeros(GRID.node_shape))
-    return Work(Terrain.over(GRID, heights), slab, BALL, 1.0, SKIN, 0.004, 0.01, 0.05)
+    return Work(Ground(Terrain.over(GRID, heights), BALL, SKIN), slab, 1.0, 0.004, 0.01, 0.05)
 
 
 def test_waterlines_go_round_a_pit_at_even_heights():
