@@ -17,6 +17,11 @@ class Children:
         self._running: set[subprocess.Popen[bytes]] = set()
         self._closed = False
 
+    @property
+    def running(self) -> int:
+        """How many run now."""
+        return len(self._running)
+
     @contextlib.contextmanager
     def child(self, module: str, arguments: Sequence[str]) -> Iterator["subprocess.Popen[bytes]"]:
         """Run a module of ours as a process, the head of a group of its own.

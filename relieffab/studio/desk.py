@@ -39,9 +39,14 @@ class Desk:
         self._newest: tuple[str, dict[str, int]] = "", {}
         self.exporter = Exporter(output, self.children, self.events.publish)
 
+    def stop(self) -> None:
+        """Let go of all who wait: listeners, and whatever is being worked out."""
+        self.events.close()
+        self.worker.stop()
+
     def close(self) -> None:
         """End all work and processes, and take scratch files away."""
-        self.events.close()
+        self.stop()
         self.exporter.close()
         self.children.close()
         self.worker.close()
@@ -92,7 +97,7 @@ class Desk:
         def work(progress: Progress) -> bytes:
             preview.seconds = {}
             view = preview.view(ask.model, ask.job, progress)
-            solved = preview.relief(ask.model, ask.job, progress) if "relief" in wanted else None
+            solved = preview.relief(view, ask.job, progress) if "relief" in wanted else None
             more = {"seconds": preview.seconds, "notes": list(ask.model.shown.notes)}
             carving = chain.carving_of(ask.job)
             return looks.preview_frame(view, solved, carving, {**facts, **more})
@@ -117,7 +122,9 @@ class Desk:
 
         def work(progress: Progress) -> bytes:
             start = time.perf_counter()
-            solved = self.session.preview.relief(ask.model, ask.job, progress)
+            preview = self.session.preview
+            view = preview.view(ask.model, ask.job, progress)
+            solved = preview.relief(view, ask.job, progress)
             tried = self.session.trial.carry_out(solved, ask.job, progress)
             seconds = {"toolpaths": time.perf_counter() - start}
             return looks.toolpaths_frame(tried, {**facts, "seconds": seconds})
