@@ -146,15 +146,16 @@ class Exporter:
         (scratch / JOB_FILE).write_text(job_file, encoding="utf-8")
         shutil.copyfile(model, scratch / model.name)
         made = scratch / "made"
-        self._follow([str(scratch / JOB_FILE), str(made)])
+        # From there, so that the report names the model as the job file does.
+        self._follow([JOB_FILE, made.name], scratch)
         for path in sorted(made.iterdir()):
             path.replace(scratch / path.name)
         made.rmdir()
 
-    def _follow(self, arguments: list[str]) -> None:
+    def _follow(self, arguments: list[str], folder: Path) -> None:
         """Run the job and pass on what it says."""
         fault: dict[str, str] | None = None
-        with self._children.child("relieffab.studio.making", arguments) as process:
+        with self._children.child("relieffab.studio.making", arguments, folder) as process:
             self._process = process
             if self._cancelled.is_set():
                 raise CancelledError

