@@ -1,5 +1,9 @@
 """Every route, as the page uses it and as it might be misused."""
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
@@ -9,6 +13,7 @@ from relieffab.studio import upload
 from relieffab.studio.app import make_app
 from relieffab.studio.frames import unpack
 from relieffab.studio.guard import POLICY, Guard
+from relieffab.studio.worker import SupersededError
 
 
 @pytest.fixture
@@ -164,6 +169,43 @@ def test_an_ask_that_comes_late_changes_nothing(loaded):
     assert loaded.get("state").json()["settings"]["depth"] == "2mm"
     # A page that was loaded anew counts from the beginning.
     frame(loaded.post("preview", json={"ask": 1, "page": "b", "settings": {"depth": "1mm"}}))
+
+
+def test_of_many_asks_at_once_the_last_is_answered_and_stays(loaded, desk):
+    def ask(n):
+        settings = {"depth": f"{1 + n / 20:g}mm", "azimuth": f"{n}deg"}
+        return loaded.post("preview", json={"ask": n, "page": "a", "settings": settings})
+
+    with ThreadPoolExecutor(8) as pool:
+        answers = list(pool.map(ask, range(24)))
+    assert {answer.status_code for answer in answers} <= {200, 409}
+    header, _ = frame(answers[-1])
+    assert (header["ask"], header["depth_mm"]) == (23, 2.15)
+    assert desk.session.texts["azimuth"] == "23deg"
+
+
+def test_a_model_opened_later_wins(desk, opened, monkeypatch, tmp_path):
+    later = replace(opened, file=tmp_path / "later.obj")
+
+    def parse(file, children):
+        if file.name == "first.obj":
+            desk.open(later.file)
+        return later if file.name == "later.obj" else opened
+
+    monkeypatch.setattr("relieffab.studio.upload.parse", parse)
+    with pytest.raises(SupersededError):
+        desk.open(tmp_path / "first.obj")
+    assert desk.session.model is later
+
+
+def test_warming_is_told_until_it_is_done(desk, monkeypatch):
+    go = threading.Event()
+    monkeypatch.setattr("relieffab.studio.desk.warm", lambda progress: go.wait(10))
+    desk.warm()
+    assert desk.state()["warming"]
+    go.set()
+    desk.worker.ask("preview", lambda progress: None).result(10)
+    assert not desk.state()["warming"]
 
 
 def test_panel_toolpaths_and_moments(loaded):

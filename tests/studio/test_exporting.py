@@ -52,7 +52,7 @@ def exporter(tmp_path, heard):
     children = Children()
     exporter = Exporter(tmp_path / "jobs", children, heard)
     yield exporter
-    exporter.close()
+    exporter.cancel()
     children.close()
 
 
@@ -60,7 +60,7 @@ def job_file(opened, ball, **typed):
     session = Session(resolve([("test", {**SMALL, **typed})]))
     session.open(replace(opened, file=ball), up="y")
     session.close()
-    return session.job_file()
+    return session.job_file("model")
 
 
 def settled(exporter):
@@ -82,7 +82,14 @@ def test_an_export_is_what_the_command_line_makes_of_its_job_file(
     assert listed == {
         str(p.relative_to(folder)): p.stat().st_size for p in folder.rglob("*") if p.is_file()
     }
-    wanted = {"relief.tiff", "panel.stl", "01-rough.nc", "report.json", "job.toml", "ball.obj"}
+    wanted = {
+        "relief.tiff",
+        "panel.stl",
+        "01-rough.nc",
+        "report.json",
+        "job.toml",
+        "model/ball.obj",
+    }
     assert wanted | {"layers/lines.svg"} <= set(listed)
     assert done["command"] == f"relieffab make {folder / 'job.toml'} -o FOLDER"
     stages = {s["stage"] for s in heard.states if s["state"] == "running"}
@@ -92,7 +99,7 @@ def test_an_export_is_what_the_command_line_makes_of_its_job_file(
     assert run(["make", "job.toml", "-o", str(again)]) == 0
     for name in ("relief.tiff", "02-finish.nc", "panel.stl", "layers/lines.svg"):
         assert (folder / name).read_bytes() == (again / name).read_bytes(), name
-    assert json.loads((folder / "report.json").read_text())["settings"]["model"] == "ball.obj"
+    assert json.loads((folder / "report.json").read_text())["settings"]["model"] == "model/ball.obj"
     assert exporter.file("layers/lines.svg") == folder / "layers" / "lines.svg"
     for name in ("../ball/job.toml", "/etc/passwd", "layers", "", "nothing.stl", "./job.toml"):
         with pytest.raises(Exception, match="no such file"):
@@ -106,8 +113,7 @@ def test_a_cancelled_export_leaves_nothing(opened, ball, exporter, heard, tmp_pa
     exporter.start(job_file(opened, ball, resolution="1024x768"), ball)
     heard.wait("layers")
     exporter.cancel()
-    assert heard.wait("cancelled")["state"] == "cancelled"
-    settled(exporter)
+    assert heard.states[-1] == exporter.state == {"state": "cancelled"}
     assert not exporter.running
     assert list(tmp_path.rglob("*")) == []
     assert exporter._children.running == 0

@@ -85,6 +85,12 @@ def test_texts_of_all_kinds_stay_what_they_are_in_a_job_file(session):
         assert tomllib.loads(session.job_file())["machine"] == text
 
 
+def test_a_model_of_any_name_is_named_in_a_job_file(session, opened, tmp_path):
+    session.open(replace(opened, file=tmp_path / 'my "horse".ply'))
+    assert tomllib.loads(session.job_file())["model"] == 'my "horse".ply'
+    assert tomllib.loads(session.job_file("model"))["model"] == 'model/my "horse".ply'
+
+
 def test_opening_another_model_takes_the_one_before_away(session, opened):
     places = [session.new_place() for _ in range(2)]
     for place in places:
