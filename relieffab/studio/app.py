@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import math
 import shutil
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
@@ -162,11 +163,7 @@ class _Routes:
         return _frame(await asyncio.wrap_future(ask(await _asked(request))))
 
     async def carved(self, request: Request) -> Response:
-        text = request.query_params.get("at", "")
-        try:
-            at = float(text)
-        except ValueError as fault:
-            raise InputError("that is no moment", expected="seconds", found=text[:40]) from fault
+        at = _moment(request.query_params.get("at", ""))
         return _frame(await asyncio.wrap_future(self._desk.carved(at)))
 
     async def export(self, request: Request) -> Response:
@@ -195,6 +192,16 @@ class _Routes:
         text = self._desk.session.job_file()
         headers = {"Content-Disposition": 'attachment; filename="job.toml"'}
         return Response(text, media_type="application/toml", headers=headers)
+
+
+def _moment(text: str) -> float:
+    try:
+        at = float(text)
+    except ValueError:
+        at = math.nan
+    if not math.isfinite(at):
+        raise InputError("that is no moment", expected="seconds", found=repr(text[:40]))
+    return at
 
 
 async def _receive(request: Request, file: Path) -> None:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 
 class Children:
@@ -17,9 +18,16 @@ class Children:
         self._running: set[subprocess.Popen[bytes]] = set()
         self._closed = False
 
+    @property
+    def running(self) -> int:
+        """How many run now."""
+        return len(self._running)
+
     @contextlib.contextmanager
-    def child(self, module: str, arguments: Sequence[str]) -> Iterator["subprocess.Popen[bytes]"]:
-        """Run a module of ours as a process, the head of a group of its own.
+    def child(
+        self, module: str, arguments: Sequence[str], folder: Path | None = None
+    ) -> Iterator["subprocess.Popen[bytes]"]:
+        """Run a module of ours as a process in a folder, the head of a group of its own.
 
         Whatever the reason for leaving, process and group are gone then.
         """
@@ -29,6 +37,7 @@ class Children:
                 raise RuntimeError("the studio ends: it starts no more processes")
             process = subprocess.Popen(
                 command,
+                cwd=folder,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

@@ -15,12 +15,16 @@ from relieffab.relief.names import PARTS
 
 @dataclass(frozen=True)
 class Range:
-    """A slider's ends and step, and the unit its values are written with."""
+    """A slider's ends and step, and the unit its values are written with.
+
+    It is reversed where less of the setting is more of what its label says.
+    """
 
     low: float
     high: float
     step: float
     unit: str = "mm"
+    reverse: bool = False
 
 
 Choices = tuple[str, ...]
@@ -31,7 +35,7 @@ _GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
         "depth": ("Depth", Range(0.5, 12, 0.1)),
         "line_depth": ("Line weight", Range(0, 2, 0.05)),
         "line_width": ("Line width", Range(0.2, 3, 0.05)),
-        "line_detail": ("Line density", Range(0.4, 8, 0.1)),
+        "line_detail": ("Line density", Range(0.4, 8, 0.1, reverse=True)),
         "form_length": ("Form length", Range(0.5, 12, 0.1)),
     },
     "View": {
@@ -119,8 +123,9 @@ def _controls() -> Iterator[dict[str, Any]]:
                 "default": setting.default,
             }
             if isinstance(form, Range):
-                ends = {"min": form.low, "max": form.high, "step": form.step, "unit": form.unit}
-                yield {**control, "kind": "range", **ends}
+                ends = {"min": form.low, "max": form.high, "step": form.step}
+                way = {"unit": form.unit, "reverse": form.reverse}
+                yield {**control, "kind": "range", **ends, **way}
             elif form is None:
                 known = {"choices": list(LINE_KINDS)} if name == "line_kinds" else {}
                 yield {**control, "kind": "text", **known}

@@ -1,5 +1,6 @@
 """Desk: session, worker, exporter and events of one studio, put together."""
 
+import functools
 import time
 from collections.abc import Mapping
 from concurrent.futures import Future
@@ -13,7 +14,7 @@ from relieffab.progress import Progress
 from relieffab.studio import controls, looks, upload
 from relieffab.studio.children import Children
 from relieffab.studio.events import Events
-from relieffab.studio.exporting import Exporter, State
+from relieffab.studio.exporting import MODEL, Exporter, State
 from relieffab.studio.model import Model
 from relieffab.studio.session import Ask, Session
 from relieffab.studio.warm import warm
@@ -36,24 +37,50 @@ class Desk:
         self.worker = Worker()
         self.children = Children()
         self.events = Events()
+        self._opened = 0
         self._newest: tuple[str, dict[str, int]] = "", {}
+        self.warming = False
         self.exporter = Exporter(output, self.children, self.events.publish)
+
+    def stop(self) -> None:
+        """Let go of all who wait: listeners, and whatever is being worked out."""
+        self.events.close()
+        self.worker.stop()
 
     def close(self) -> None:
         """End all work and processes, and take scratch files away."""
-        self.events.close()
-        self.exporter.close()
+        self.stop()
+        self.exporter.cancel()
         self.children.close()
         self.worker.close()
         self.session.close()
 
     def warm(self) -> None:
         """Compile what previews take, while nothing else is asked."""
-        self.worker.ask("warm", warm)
+        self.warming = True
+        done = self.worker.ask("warm", warm, report=self._reporter("warm"))
+        done.add_done_callback(self._warmed)
+
+    def _warmed(self, _done: "Future[None]") -> None:
+        self.warming = False
+        self.events.publish({"warm": None})
 
     def open(self, file: Path, *, up: str = "") -> None:
-        """Open a model's file; `up` is its axis that points up, guessed if not given."""
-        self.session.open(upload.parse(file, self.children), up=up)
+        """Open a model's file; `up` is its axis that points up, guessed if not given.
+
+        Raises
+        ------
+        InputError
+            If it cannot be read.
+        SupersededError
+            If another was opened meanwhile.
+        """
+        self._opened += 1
+        number = self._opened
+        model = upload.parse(file, self.children)
+        if number != self._opened:
+            raise SupersededError
+        self.session.open(model, up=up)
 
     def open_scarab(self) -> None:
         """Open the toolkit's own scarab, as a file like any other."""
@@ -70,11 +97,15 @@ class Desk:
         return {
             "model": _described(self.session.model),
             "settings": self.session.texts,
-            "controls": controls.controls(),
-            **controls.listed(),
+            **self._offered,
+            "warming": self.warming,
             "export": self.exporter.state,
             "limit_bytes": upload.LARGEST,
         }
+
+    @functools.cached_property
+    def _offered(self) -> dict[str, Any]:
+        return {"controls": controls.controls(), **controls.listed()}
 
     def mesh(self) -> bytes:
         """Show the model."""
@@ -92,7 +123,7 @@ class Desk:
         def work(progress: Progress) -> bytes:
             preview.seconds = {}
             view = preview.view(ask.model, ask.job, progress)
-            solved = preview.relief(ask.model, ask.job, progress) if "relief" in wanted else None
+            solved = preview.relief(view, ask.job, progress) if "relief" in wanted else None
             more = {"seconds": preview.seconds, "notes": list(ask.model.shown.notes)}
             carving = chain.carving_of(ask.job)
             return looks.preview_frame(view, solved, carving, {**facts, **more})
@@ -117,7 +148,9 @@ class Desk:
 
         def work(progress: Progress) -> bytes:
             start = time.perf_counter()
-            solved = self.session.preview.relief(ask.model, ask.job, progress)
+            preview = self.session.preview
+            view = preview.view(ask.model, ask.job, progress)
+            solved = preview.relief(view, ask.job, progress)
             tried = self.session.trial.carry_out(solved, ask.job, progress)
             seconds = {"toolpaths": time.perf_counter() - start}
             return looks.toolpaths_frame(tried, {**facts, "seconds": seconds})
@@ -164,7 +197,7 @@ class Desk:
         """Begin the job."""
         ask = self.session.settle(settings)
         chain.check(ask.job)
-        return self.exporter.start(self.session.job_file(), ask.model.file)
+        return self.exporter.start(self.session.job_file(MODEL), ask.model.file)
 
 
 def _described(model: Model | None) -> dict[str, Any] | None:

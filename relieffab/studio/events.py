@@ -19,17 +19,20 @@ class Events:
 
     def publish(self, fact: Mapping[str, Any]) -> None:
         """Tell a fact, from whichever thread."""
+        self._pass_on(json.dumps(fact))
+
+    def close(self) -> None:
+        """End all listening, from whichever thread."""
+        self._closed = True
+        self._pass_on(None)
+
+    def _pass_on(self, text: str | None) -> None:
         if self._loop and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._spread, json.dumps(fact))
+            self._loop.call_soon_threadsafe(self._spread, text)
 
     def _spread(self, text: str | None) -> None:
         for queue in self._queues:
             queue.put_nowait(text)
-
-    def close(self) -> None:
-        """End all listening."""
-        self._closed = True
-        self._spread(None)
 
     async def listen(self, first: Mapping[str, Any]) -> AsyncIterator[str]:
         """Give facts as server-sent events, the present one first."""

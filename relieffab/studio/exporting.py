@@ -11,7 +11,11 @@ from relieffab.errors import InputError, RelieffabError
 from relieffab.job.folder import ALL, check_folder, finished_together
 from relieffab.studio.children import Children, end
 
-JOB_FILE = "job.toml"
+JOB_FILE, MODEL = "job.toml", "model"
+"""The job's own file, and the folder of its model: a model may be called panel.stl."""
+
+PATIENCE = 10.0
+"""Seconds that a cancelled job has to go."""
 
 State = dict[str, Any]
 
@@ -57,7 +61,7 @@ class Exporter:
         Parameters
         ----------
         job_file : str
-            Text of a job file that names the model beside it.
+            Text of a job file whose model lies in `MODEL`.
         model : Path
             The model's file.
 
@@ -82,16 +86,13 @@ class Exporter:
         return state
 
     def cancel(self) -> None:
-        """Stop the job, if one is being made; nothing of it stays."""
+        """Stop the job, if one is being made, and wait until nothing of it is left."""
+        if self._thread is None:
+            return
         self._cancelled.set()
-        if self._process is not None:
-            end(self._process)
-
-    def close(self) -> None:
-        """Cancel, and wait until nothing is left."""
-        self.cancel()
-        if self._thread:
-            self._thread.join(timeout=10.0)
+        if (process := self._process) is not None:
+            end(process)
+        self._thread.join(timeout=PATIENCE)
 
     def file(self, name: str) -> Path:
         """Find a file of the finished job.
@@ -144,17 +145,19 @@ class Exporter:
 
     def _make(self, job_file: str, model: Path, scratch: Path) -> None:
         (scratch / JOB_FILE).write_text(job_file, encoding="utf-8")
-        shutil.copyfile(model, scratch / model.name)
+        (scratch / MODEL).mkdir()
+        shutil.copyfile(model, scratch / MODEL / model.name)
         made = scratch / "made"
-        self._follow([str(scratch / JOB_FILE), str(made)])
+        # From there, so that the report names the model as the job file does.
+        self._follow([JOB_FILE, made.name], scratch)
         for path in sorted(made.iterdir()):
             path.replace(scratch / path.name)
         made.rmdir()
 
-    def _follow(self, arguments: list[str]) -> None:
+    def _follow(self, arguments: list[str], folder: Path) -> None:
         """Run the job and pass on what it says."""
         fault: dict[str, str] | None = None
-        with self._children.child("relieffab.studio.making", arguments) as process:
+        with self._children.child("relieffab.studio.making", arguments, folder) as process:
             self._process = process
             if self._cancelled.is_set():
                 raise CancelledError

@@ -169,9 +169,8 @@ class Preview:
             self._study = model, study
         return sight.strokes(drawing, study=study.seen(sight.placed))
 
-    def relief(self, model: Model, job: Job, progress: Progress) -> Solved:
-        """Solve for the relief; from the last one, if that is of the same figure."""
-        view = self.view(model, job, progress)
+    def relief(self, view: View, job: Job, progress: Progress) -> Solved:
+        """Solve for the relief of a view; from the last one, if that is of the same figure."""
         start = time.perf_counter()
         key = view, _some(job, SOLVED)
         solved = self.kept.once("relief", key, lambda: self._solve(view, job, progress))
@@ -180,7 +179,8 @@ class Preview:
 
     def panel(self, model: Model, job: Job, progress: Progress) -> Panel:
         """Carve the relief into its stock."""
-        solved, stock = self.relief(model, job, progress), stock_of(job)
+        solved = self.relief(self.view(model, job, progress), job, progress)
+        stock = stock_of(job)
         blank = None if stock.plain else self.kept.once("blank", stock, lambda: _blank(stock))
         return make_panel(solved.relief, stock, blank=blank, tolerance=TOLERANCE, progress=progress)
 

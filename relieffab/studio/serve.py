@@ -6,12 +6,17 @@ import socket
 import webbrowser
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
 
 from relieffab.errors import InputError
 from relieffab.job.settings import Chosen
 from relieffab.studio.app import make_app
 from relieffab.studio.desk import Desk
 from relieffab.studio.guard import Guard, new_token
+
+if TYPE_CHECKING:
+    import uvicorn
 
 HOST = "127.0.0.1"
 BACKLOG = 64
@@ -86,8 +91,20 @@ def serve(
             desk.warm()
             if browser:
                 webbrowser.open(address)
-            uvicorn.Server(config).run(sockets=[taken])
+            _server(config, desk).run(sockets=[taken])
         except KeyboardInterrupt:
             return
         finally:
             desk.close()
+
+
+def _server(config: "uvicorn.Config", desk: Desk) -> "uvicorn.Server":
+    """Make a server that lets go of those who wait before it waits for them."""
+    import uvicorn
+
+    class Server(uvicorn.Server):
+        def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+            desk.stop()
+            super().handle_exit(sig, frame)
+
+    return Server(config)

@@ -92,12 +92,20 @@ class Session:
                 _check_setting(name, text)
         return {**self.texts, **given}
 
-    def job_file(self) -> str:
-        """Write the job file that makes what is seen, from the model beside it."""
+    def job_file(self, folder: str = "") -> str:
+        """Write the job file that makes what is seen.
+
+        Parameters
+        ----------
+        folder : str
+            Where the model lies, as seen from the job file; beside it if not given.
+        """
         if self.model is None:
             raise InputError("no model is open", hint="drop a model file on the page")
-        lines = ["# relieffab make job.toml -o FOLDER", "", f'model = "{self.model.name}"']
-        lines += [f"{name} = {_quoted(text)}" for name, text in self.texts.items()]
+        model = f"{folder}/{self.model.name}" if folder else self.model.name
+        lines = ["# relieffab make job.toml -o FOLDER", ""]
+        for name, text in {"model": model, **self.texts}.items():
+            lines.append(f"{name} = {_quoted(text)}")
         return "\n".join(lines) + "\n"
 
 

@@ -18,6 +18,6 @@ def warm(progress: Progress) -> None:
     preview = Preview(width=64)
     for depth in ("3mm", "3.2mm"):
         job = default_job(model="scarab", up="y", depth=depth)
-        solved = preview.relief(model, job, progress)
+        solved = preview.relief(preview.view(model, job, progress), job, progress)
     preview.panel(model, job, progress)
     Trial().carry_out(solved, job, progress)

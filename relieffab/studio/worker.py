@@ -12,6 +12,9 @@ from relieffab.progress import Progress, silent
 KINDS = ("carved", "preview", "panel", "toolpaths", "warm")
 """What may be asked for, the most urgent first."""
 
+PATIENCE = 5.0
+"""Seconds that the thread is waited for at the end."""
+
 Work = Callable[[Progress], Any]
 
 
@@ -81,13 +84,17 @@ class Worker:
         if self._current and self._current.kind in kinds:
             self._current.dropped = True
 
-    def close(self) -> None:
-        """Drop everything and end the thread, at the next word of progress."""
+    def stop(self) -> None:
+        """Drop everything, and take no more."""
         with self._change:
             self._closed = True
             self._drop(KINDS)
             self._change.notify()
-        self._thread.join(timeout=5.0)
+
+    def close(self) -> None:
+        """Stop, and wait for the thread to come to its next word of progress."""
+        self.stop()
+        self._thread.join(timeout=PATIENCE)
 
     def _run(self) -> None:
         while True:

@@ -1,0 +1,67 @@
+"""A studio with a small model, served without a network."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from starlette.testclient import TestClient
+
+from relieffab.job.settings import default_job, resolve
+from relieffab.studio.app import make_app
+from relieffab.studio.desk import Desk
+from relieffab.studio.guard import Guard
+from relieffab.studio.model import lightened
+
+TOKEN, PORT = "a-token-nobody-guesses", 8765
+SMALL = {
+    "size": "40x30mm",
+    "margin": "3mm",
+    "depth": "1.5mm",
+    "resolution": "96x72",
+    "scallop": "0.05mm",
+}
+
+
+@pytest.fixture(scope="session")
+def ball(tmp_path_factory):
+    """A bumpy ball in a file."""
+    sphere = trimesh.creation.icosphere(subdivisions=4)
+    v = np.array(sphere.vertices) * [3, 2, 1.5]
+    v *= 1 + 0.05 * np.sin(5 * v[:, :1]) * np.sin(4 * v[:, 1:2])
+    path = tmp_path_factory.mktemp("model") / "ball.obj"
+    trimesh.Trimesh(v, sphere.faces, process=False).export(path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def opened(model):
+    """The bumpy ellipsoid as a studio has it."""
+    return lightened(model, Path("bumps.obj"))
+
+
+@pytest.fixture(scope="session")
+def job():
+    """A job on a small panel, as typed settings change it."""
+
+    def make(**typed):
+        return replace(default_job(**{**SMALL, **typed}), model="bumps.obj", up="y")
+
+    return make
+
+
+@pytest.fixture
+def desk(tmp_path):
+    """A desk with nothing on it."""
+    desk = Desk(resolve([("test", SMALL)]), tmp_path / "jobs")
+    yield desk
+    desk.close()
+
+
+@pytest.fixture
+def client(desk):
+    """The page's side."""
+    app = Guard(make_app(desk), token=TOKEN, port=PORT)
+    with TestClient(app, base_url=f"http://127.0.0.1:{PORT}/{TOKEN}") as client:
+        yield client
