@@ -49,7 +49,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "relief.store": ["read_relief", "to_tiff"],
         "relief.targets": ["Carving"],
         "stock": ["Stock"],
-        "subject": ["scarab"],
+        "subject": ["cat", "falcon", "lotus", "scarab"],
         "template.model": ["Template", "make_template"],
         "template.pdf": ["to_pdf"],
         "template.svg": ["to_svg"],
