@@ -8,7 +8,7 @@ import numpy as np
 import relieffab as rf
 from relieffab.picture import hillshade, png_small
 
-SIZE = (84.0, 112.0)
+SIZE = (96.0, 105.0)
 
 
 def run(folder: Path, width: int = 330) -> Path:
@@ -18,7 +18,7 @@ def run(folder: Path, width: int = 330) -> Path:
         (rf.falcon(cell=cell), rf.View(up="y"), "stone"),
         (rf.lotus(cell=cell), rf.View(up="y"), "wood"),
         (rf.cat(cell=cell), rf.View(up="y"), "stone"),
-        (rf.scarab(), rf.View(up="y", roll=90), "wood"),
+        (rf.scarab(), rf.View(up="y"), "wood"),
         (_ammonite(), rf.View(up="y"), "stone"),
         (rf.cat(cell=cell), rf.View(azimuth=-40, elevation=8, up="y"), "wood"),
     ]
@@ -28,7 +28,7 @@ def run(folder: Path, width: int = 330) -> Path:
             rf.make_mesh(*shape),
             view,
             size=SIZE,
-            resolution=(width, width * 4 // 3),
+            resolution=(width, width * 35 // 32),
         )
         relief, _ = rf.make_relief(layers, rf.Carving(depth=3.0))
         images.append(hillshade(relief, texture=texture))
