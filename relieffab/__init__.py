@@ -53,7 +53,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "relief.targets": ["Carving"],
         "round": ["Curved", "Round"],
         "stock": ["Stock"],
-        "subject": ["scarab"],
+        "subject": ["cat", "falcon", "lotus", "scarab"],
         "template.model": ["Template", "make_template"],
         "template.pdf": ["to_pdf"],
         "template.svg": ["to_svg"],

@@ -3,7 +3,7 @@
 from relieffab.picture.deviation import deviation_map
 from relieffab.picture.look import predicted_look
 from relieffab.picture.panel import panel_picture, solid_picture
-from relieffab.picture.png import png8, png16, smaller
+from relieffab.picture.png import png8, png16, png_small, smaller
 from relieffab.picture.render import OpenGLMissingError
 from relieffab.picture.standing import standing_picture
 from relieffab.picture.stone import hillshade, relit
@@ -15,6 +15,7 @@ __all__ = [
     "panel_picture",
     "png8",
     "png16",
+    "png_small",
     "predicted_look",
     "relit",
     "smaller",

@@ -176,13 +176,12 @@ def _table(panel: TriangleMesh, low: Floats, high: Floats, light: Floats) -> Any
     """Lay a plain table below, the slab's soft shadow on it."""
     from pyrender import Primitive
 
-    size, thick = (high - low)[:2], float(high[2] - low[2])
-    step = 5 * float(size.max()) / 1024
-    middle, half = (low + high)[:2] / 2, 2.5 * size
-    x, y = (np.arange(middle[k] - half[k], middle[k] + half[k], step) for k in (0, 1))
+    size, thick = float((high - low)[:2].max()), float(high[2] - low[2])
+    step, half = 5 * size / 1024, 2.5 * size
+    x, y = (np.arange(at - half, at + half, step) for at in ((low + high) / 2)[:2].tolist())
     shadow = _shadow(panel, x, y, thick, light)
-    far = np.hypot(*np.meshgrid((x - x.mean()) / size[0], (y - y.mean()) / size[1]))
-    grey = shadow * (1.08 - 0.22 * far**2)
+    far = np.hypot(*np.meshgrid((x - x.mean()) / size, (y - y.mean()) / size))
+    grey = shadow * np.maximum(1.08 - 0.22 * far**2, 0.4)
     image = np.clip(grey[..., None] * TABLE, 0, 1) ** (1 / GAMMA)
     start, end = (x[0], y[0]), (x[-1], y[-1])
     corners = [start, (end[0], start[1]), end, (start[0], end[1])]

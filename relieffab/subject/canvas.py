@@ -19,8 +19,9 @@ UPRIGHT = 1.4
 class Canvas:
     """Signed distances on a grid over a slab standing on Z = 0.
 
-    Of a symmetrical one only X >= 0 is drawn; the mesh is mirrored.  Each part is worked out within
-    its own bounding box, so the cost follows what is drawn and not the slab's size.
+    Of a symmetrical one only X >= 0 is drawn; the mesh is mirrored.  Each part is
+    worked out within its own bounding box, so the cost follows what is drawn and not
+    the slab's size.
 
     Parameters
     ----------

@@ -35,32 +35,32 @@ def _collar(p: Point) -> Field:
 
 def _head(p: Point) -> Field:
     """Shape skull, muzzle and brow."""
-    skull = ellipsoid(p, (8.0, 35.0, 11.0), (10.5, 9.0, 9.5))
-    muzzle = ellipsoid(p, (17.0, 31.6, 11.0), (5.6, 4.6, 6.2))
-    head = union(skull, muzzle, 4.5)
-    mouth = np.hypot(p.y - 30.0 + 0.10 * (p.x - 16.0), 0.8 * np.maximum(15.5 - p.x, 0))
-    head = head + 0.55 * np.exp(-((mouth / 0.55) ** 2))
-    nose = ellipsoid(p, (21.6, 33.6, 11.0), (1.6, 1.4, 3.2))
+    skull = ellipsoid(p, (7.5, 35.4, 11.0), (11.0, 9.6, 9.8))
+    muzzle = ellipsoid(p, (15.6, 31.4, 11.0), (5.2, 4.8, 6.6))
+    head = union(skull, muzzle, 3.5)
+    mouth = np.hypot(p.y - 29.9 + 0.16 * (p.x - 15.0), 0.8 * np.maximum(14.0 - p.x, 0))
+    head = head + 0.6 * np.exp(-((mouth / 0.6) ** 2))
+    nose = ellipsoid(p, (19.9, 33.8, 11.0), (1.5, 1.5, 3.2))
     return union(head, nose, 0.8)
 
 
 def _eye(p: Point) -> Field:
     """Shape an eye within its lid, the outer corner drawn out."""
-    ball = ellipsoid(p, (12.6, 36.0, 18.4), (2.5, 1.6, 1.8))
-    lid = [(16.0, 34.9), (13.9, 37.6), (11.0, 37.6), (6.5, 34.8)]
-    under = [(16.0, 34.9), (13.6, 33.7), (10.6, 34.0), (6.5, 34.8)]
+    ball = ellipsoid(p, (11.2, 36.8, 18.6), (3.0, 2.0, 2.0))
+    lid = [(15.4, 35.2), (13.2, 39.4), (9.4, 39.6), (3.6, 36.2)]
+    under = [(15.4, 35.2), (12.6, 33.6), (9.4, 34.2), (3.6, 36.2)]
     solid = ball
     for course in (lid, under):
         path = bezier(course, np.linspace(0, 1, 9))
         for (ax, ay), (bx, by) in pairwise(path.tolist()):
-            solid = union(solid, cone(p, (ax, ay, 18.9), (bx, by, 18.9), (0.62, 0.62)))
+            solid = union(solid, cone(p, (ax, ay, 19.6), (bx, by, 19.6), (0.75, 0.75)))
     return solid
 
 
 def _ear(p: Point, foot: float, z: float) -> Field:
     """Shape an ear that stands up, hollow to the front."""
-    outer = cone(p, (foot, 39.0, z), (foot - 2.6, 53.0, z - 0.5), (5.2, 0.9))
-    inner = cone(p, (foot + 1.3, 39.5, z + 4.2), (foot - 1.9, 51.5, z + 1.6), (3.3, 0.5))
+    outer = cone(p, (foot, 39.0, z), (foot - 2.2, 52.0, z - 0.5), (6.4, 0.9))
+    inner = cone(p, (foot + 1.2, 40.0, z + 5.4), (foot - 1.6, 50.5, z + 1.6), (4.2, 0.5))
     return common(outer, -inner, 0.5)
 
 
@@ -77,9 +77,10 @@ def _foreleg(p: Point, x: float, z: float) -> Field:
         p,
         [(x - 2.0, -6.0, z - 1.0, 6.2), (x + 0.5, -24.0, z, 4.2), (x + 0.8, -40.5, z, 3.5)],
     )
+    shoulder = ellipsoid(p, (x - 4.0, -3.0, z - 2.5), (9.0, 14.0, 8.5))
     paw = ellipsoid(p, (x + 4.4, -42.6, z), (6.4, 3.3, 4.4))
     toes = 0.35 * np.exp(-((np.sin((p.z - z) * 1.5) / 0.35) ** 2)) * (p.x > x + 5.0)
-    return union(leg, paw, 2.5) + toes
+    return union(union(leg, shoulder, 4.0), paw, 2.5) + toes
 
 
 def _haunch(p: Point) -> Field:
@@ -90,13 +91,13 @@ def _haunch(p: Point) -> Field:
 
 
 def _tail(p: Point) -> Field:
-    path = bezier(TAIL, np.linspace(0, 1, 17))
-    high = np.linspace(10.0, 21.5, 17)
-    wide = np.linspace(3.6, 2.4, 17)
+    path = bezier(TAIL, np.linspace(0, 1, 41))
+    high = np.linspace(10.0, 21.5, 41)
+    wide = np.linspace(3.6, 2.4, 41)
     solid: Field = np.full((), np.inf, np.float32)
-    for k in range(16):
+    for k in range(40):
         a, b = (*path[k], high[k]), (*path[k + 1], high[k + 1])
-        solid = union(solid, cone(p, a, b, (float(wide[k]), float(wide[k + 1]))), 0.5)
+        solid = union(solid, cone(p, a, b, (float(wide[k]), float(wide[k + 1]))))
     return solid
 
 
@@ -122,16 +123,16 @@ def cat(*, cell: float = 0.3) -> Mesh:
         Counter-clockwise seen from outside; closed.
     """
     canvas = Canvas(SIZE, cell, mirrored=False)
-    canvas.draw(lambda p: _foreleg(p, 13.5, 5.5), (3, -47, 0), (26, 2, 14))
+    canvas.draw(lambda p: _foreleg(p, 13.5, 5.5), (0, -47, 0), (26, 12, 14))
     canvas.draw(lambda p: _ear(p, 10.5, 6.0), (3, 33, 0), (18, 55, 12))
     canvas.draw(_trunk, (-28, -46, 0), (20, 38, 26))
     canvas.draw(_head, (-4, 24, 0), (25, 46, 22))
     canvas.draw(lambda p: _ear(p, 3.0, 14.5), (-5, 33, 5), (11, 55, 21))
-    canvas.draw(_eye, (4, 31, 15), (18, 40, 22))
-    canvas.draw(lambda p: _foreleg(p, 8.0, 14.5), (-2, -47, 4), (20, 2, 22), blend=1.5)
+    canvas.draw(_eye, (2, 31, 15), (18, 42, 23))
+    canvas.draw(lambda p: _foreleg(p, 8.0, 14.5), (-6, -47, 2), (20, 12, 22), blend=3.0)
     canvas.draw(_collar, (-16, 2, 2), (26, 22, 26))
     canvas.draw(_haunch, (-26, -47, 2), (15, -9, 25))
     canvas.draw(_tail, (-36, -48, 2), (6, -20, 26))
-    canvas.draw(lambda p: torus(p, (-3.2, 40.0, 18.2), 2.6, 0.6), (-8, 36, 16), (1, 44, 20))
+    canvas.draw(lambda p: torus(p, (-2.2, 38.6, 19.0), 2.7, 0.75), (-7, 34, 17), (3, 43, 21))
     canvas.draw(_plinth, (-37, -53, 0), (30, -44, 25))
     return canvas.mesh()

@@ -163,7 +163,7 @@ def _measures(page: Drawing, stock: Stock, sight: Sight) -> None:
 def _zero(page: Drawing, stock: Stock, sight: Sight) -> None:
     """Draw work zero and the ways of X and Y from it, as the machine has them."""
     x, y = sight(stock.work_zero[:2])[0]
-    reach = 0.22 * min(LARGEST)
+    reach = min(0.22 * min(LARGEST), 0.6 * sight.scale * min(stock.width, stock.height))
     page.arrow("zero", (x, y), (x + reach, y))
     page.arrow("zero", (x, y), (x, y - reach))
     page.circle("origin", (x, y), 5)

@@ -29,7 +29,7 @@ def draw(stock: Stock, depth: float, machine: Mapping[str, Any] | None) -> Drawi
     foot = face + SLAB
     page = Drawing(WIDTH, foot + 26, "The stock from the side")
     _profile(page, stock, face, depth, scale)
-    page.down(face, foot, 0.6 * LEFT, f"{mm(stock.thickness)} mm", from_x=LEFT)
+    page.down(face, foot, 0.35 * LEFT, f"{mm(stock.thickness)} mm", from_x=LEFT)
     if depth:
         deep = face + depth * scale
         page.down(face, deep, RIGHT + 22, f"{mm(depth)} mm deep", from_x=RIGHT - 30)
