@@ -2,7 +2,7 @@
 
 import { postJson } from "./api.js";
 import { byId, el } from "./dom.js";
-import { complain, progress, say, settle } from "./messages.js";
+import { complain, say, settle } from "./messages.js";
 
 export class Exporting {
   /** @param {function} settings  () -> the settings as they stand */
@@ -14,16 +14,6 @@ export class Exporting {
     this.button.addEventListener("click", () => this.begin());
   }
 
-  /** Hear what the studio says of its work, as long as the page lives. */
-  listen() {
-    const events = new EventSource("events");
-    events.addEventListener("message", ({ data }) => {
-      const told = JSON.parse(data);
-      if ("export" in told) this.show(told.export);
-      if (told.toolpaths) progress("Toolpaths", told.toolpaths);
-    });
-  }
-
   /** Whether there is anything to export. */
   enable(enabled) {
     this.enabled = enabled;
@@ -32,10 +22,16 @@ export class Exporting {
 
   async begin() {
     settle("export");
+    const before = this.told;
+    say("Exporting");
+    this.show({ state: "running" });
+    this.host.focus();
     try {
-      this.show((await postJson("export", { settings: this.settings() })).export);
-      this.host.focus();
+      // The answer is not shown: events, which come in order, may have overtaken it.
+      await postJson("export", { settings: this.settings() });
     } catch (error) {
+      this.told = this.state = null;
+      this.show(before);
       complain(error, "export");
     }
   }
@@ -43,6 +39,7 @@ export class Exporting {
   /** Show how an export stands. */
   show(told) {
     const before = this.state;
+    this.told = told;
     this.state = told?.state;
     this.enable(this.enabled);
     if (!told || this.state === "cancelled") this.#none(before);
@@ -82,7 +79,7 @@ export class Exporting {
 
   async #cancel() {
     try {
-      this.show((await postJson("cancel")).export);
+      await postJson("cancel");
     } catch (error) {
       complain(error, "export");
     }

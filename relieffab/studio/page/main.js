@@ -4,12 +4,15 @@ import { getFrame, getJson, postModel, StudioError } from "./api.js";
 import { Asking } from "./asking.js";
 import { Controls } from "./controls.js";
 import { byId, isTyping } from "./dom.js";
+import { listen } from "./events.js";
 import { Exporting } from "./exporting.js";
-import { account, complain, say, settle } from "./messages.js";
+import { account, complain, progress, say, settle } from "./messages.js";
 import { carvingTime, Show, TABS } from "./show.js";
 import { Store } from "./store.js";
 import { Tabs } from "./tabs.js";
 import { tooLarge, watchForModels } from "./upload.js";
+
+const WARMING = "Getting ready: the first time on a machine this takes some minutes";
 
 const store = new Store();
 const controls = new Controls(store);
@@ -83,7 +86,12 @@ async function begin() {
     store.load(state.settings);
     controls.load(state.controls);
     exporting.show(state.export);
-    exporting.listen();
+    if (state.warming) say(WARMING);
+    listen({
+      export: (told) => exporting.show(told),
+      toolpaths: (told) => progress("Toolpaths", told),
+      warm: (told) => (told ? progress("Getting ready", told) : account()),
+    });
     await take(state);
   } catch (error) {
     complain(error, "studio");

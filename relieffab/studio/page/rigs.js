@@ -11,6 +11,7 @@ export class FlatRig {
   constructor() {
     this.camera = new OrthographicCamera(-1, 1, 1, -1, 0, 20000);
     this.size = [120, 90];
+    this.view = [1, 1];
     this.reset();
   }
 

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from relieffab.studio.frames import unpack
+
 CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
 )
@@ -38,7 +40,9 @@ class Person:
         self.url = url
         self.faults = []
         page.on("console", self._hear)
-        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.on("pageerror", lambda error: self.faults.append(error.stack or str(error)))
+        page.on("requestfinished", self._follow)
+        self.answered = None
         page.goto(url)
 
     def _hear(self, message):
@@ -46,6 +50,11 @@ class Person:
         refused = message.text.startswith("Failed to load resource: the server responded")
         if message.type in ("error", "warning") and not refused:
             self.faults.append(message.text)
+
+    def _follow(self, request):
+        asked = request.url.endswith("/preview") and "relief" in request.post_data_json["want"]
+        if asked and request.response().status == 200:
+            self.answered = request
 
     def sees(self, expression):
         """What an expression comes to on the page."""
@@ -85,6 +94,15 @@ class Person:
         )
         return np.array(field["heights"], np.float32).reshape(field["rows"], field["cols"])
 
+    def is_shown_what_it_asked(self):
+        """Whether the relief shown is the studio's last, and that of the settings as they stand."""
+        told, arrays = unpack(self.answered.response().body())
+        question = self.answered.post_data_json
+        assert question["settings"] == self.sees("studio.store.settings")
+        assert told["ask"] == question["ask"] == self.sees("studio.asking.count")
+        assert arrays["heights"].tobytes() == self.heights().tobytes()
+        return told
+
     def picture(self):
         """The view, as a PNG file."""
         self.page.wait_for_timeout(120)
@@ -113,7 +131,7 @@ class Studio:
         self.output = output
         self.process = subprocess.Popen(
             [sys.executable, "-m", "relieffab", "studio", "--no-browser", "-o", str(output)]
-            + ["--size", "60x45mm", "--resolution", "240x180", "--line-length", "2mm"],
+            + ["--size", "40x30mm", "--resolution", "160x120", "--line-length", "2mm"],
             stdout=subprocess.PIPE,
             text=True,
             cwd=output.parent,
@@ -140,9 +158,8 @@ def model(tmp_path_factory):
 
     from relieffab.subject import scarab
 
-    mesh = scarab(cell=1.1)
     path = tmp_path_factory.mktemp("model") / "scarab.stl"
-    trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(path)
+    trimesh.Trimesh(*scarab(cell=1.1), process=False).export(path)
     return path
 
 

