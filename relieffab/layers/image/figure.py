@@ -24,6 +24,8 @@ SPREAD = 0.25
 """Of the picture's own spread of colours: a border more varied is no background."""
 COARSE = 400
 """Pixels at most each way for segmentation."""
+STRIP = 5
+"""Half the width, pixels of that copy, of what may be background's tone inside a figure."""
 
 
 def opaque(picture: Picture) -> Bools:
@@ -134,9 +136,7 @@ def _segmented(picture: Picture) -> Bools | None:
     if noise > SPREAD * most:
         return None
     seeds = np.zeros(shape, np.int32)
-    seeds[off < 1.2 * noise + 0.02 * most] = 1
-    seeds[[0, -1]] = 1
-    seeds[:, [0, -1]] = 1
+    seeds[_beyond(off < 1.2 * noise + 0.02 * most)] = 1
     inner = ndimage.binary_erosion(off > 2.5 * noise + 0.12 * most, iterations=2)
     seeds[inner] = 2
     if not inner.any():
@@ -150,6 +150,18 @@ def _segmented(picture: Picture) -> Bools | None:
         return None
     back = resize(figure.astype(float), picture.shape, order=1) > 0.5
     return np.asarray(back, bool)
+
+
+def _beyond(alike: Bools) -> Bools:
+    """Find what is like the border and joined to it, by more than a strip of the figure's own."""
+    alike = alike.copy()
+    alike[[0, -1]] = alike[:, [0, -1]] = True
+    broad = ndimage.binary_opening(np.pad(alike, STRIP, mode="edge"), iterations=STRIP)
+    parts, _ = ndimage.label(broad[STRIP:-STRIP, STRIP:-STRIP])
+    rim = np.unique(border(parts))
+    found = np.isin(parts, rim[rim > 0])
+    found[[0, -1]] = found[:, [0, -1]] = True
+    return np.asarray(found, bool)
 
 
 def _without_specks(mask: Bools) -> Bools:

@@ -1,0 +1,63 @@
+"""A figure from a depth map and a word in a font, on one panel, carved and judged."""
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from relieffab.cli.main import main
+
+
+@pytest.fixture
+def font(tmp_path):
+    """A font of one thick bar."""
+    from fontTools.fontBuilder import FontBuilder
+    from fontTools.pens.ttGlyphPen import TTGlyphPen
+
+    pen = TTGlyphPen(None)
+    for k, point in enumerate([(100, 0), (100, 700), (400, 700), (400, 0)]):
+        (pen.lineTo if k else pen.moveTo)(point)
+    pen.closePath()
+    builder = FontBuilder(1000, isTTF=True)
+    builder.setupGlyphOrder([".notdef", "I"])
+    builder.setupCharacterMap({ord("I"): "I"})
+    builder.setupGlyf({".notdef": TTGlyphPen(None).glyph(), "I": pen.glyph()})
+    builder.setupHorizontalMetrics(dict.fromkeys((".notdef", "I"), (500, 0)))
+    builder.setupHorizontalHeader(ascent=800, descent=-200)
+    builder.setupNameTable({"familyName": "One", "styleName": "Regular"})
+    builder.setupOS2()
+    builder.setupPost()
+    builder.save(tmp_path / "one.ttf")
+    return tmp_path / "one.ttf"
+
+
+def run(*words):
+    return main([str(word) for word in words])
+
+
+def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
+    i, j = np.indices((100, 100)) - 49.5
+    height = np.sqrt(np.maximum(45.0**2 - i**2 - j**2, 0.0)) / 45.0
+    grey = np.where(i**2 + j**2 < 45**2, 2000 + 60000 * height, 0).astype(np.uint16)
+    Image.fromarray(grey).save(tmp_path / "ball.png")
+    small = ("--margin", "3mm", "--depth", "1mm")
+    figure, word, both = tmp_path / "figure", tmp_path / "word", tmp_path / "both"
+    assert run("relief", tmp_path / "ball.png", "--size", "30x30mm", "--resolution", "100x100",
+               *small, "-o", figure) == 0  # fmt: skip
+    assert run("relief", font, "--text", "III", "--size", "30x15mm", "--resolution", "100x50",
+               *small, "-o", word) == 0  # fmt: skip
+    assert "taken for a depth" in capsys.readouterr().out
+    places = (f"{figure}@3x20mm", f"{word}@3x2mm")
+    assert run("compose", *places, "--size", "40x55mm", "-o", both) == 0
+    assert run("toolpath", both, "--scallop", "0.03mm") == 0
+    assert run("verify", both) == 0
+    report = json.loads((both / "report.json").read_text())
+    assert report["verification"]["gouge_mm"] < 0.01
+    assert [part["model"]["kind"] for part in report["reliefs"]] == ["depth", "text"]
+
+
+def test_a_missing_glyph_is_said_and_nothing_written(tmp_path, font, capsys):
+    assert run("relief", font, "--text", "IX", "-o", tmp_path / "out") == 2
+    assert "lacks glyphs" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()

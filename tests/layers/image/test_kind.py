@@ -1,0 +1,22 @@
+import numpy as np
+import pytest
+
+from relieffab.errors import InputError
+from relieffab.layers.image.kind import kind_of
+
+
+def test_kinds_are_told_by_values(stone, depth_map, normal_map, make_picture):
+    assert kind_of(depth_map(stone, 16)[0]) == "depth"
+    assert kind_of(depth_map(stone, None)[0]) == "depth"
+    assert kind_of(normal_map(stone, 8)) == "normal"
+    assert kind_of(make_picture(stone.normals, bits=None)) == "normal"
+    assert kind_of(make_picture(1 - stone.lines)) == "drawing"
+    grey = np.repeat(stone.shading[0][..., None], 3, axis=2) * [1.0, 0.9, 0.7]
+    assert kind_of(make_picture(grey)) == "photo"
+    assert kind_of(make_picture(grey[..., 0])) == "photo"
+
+
+def test_one_colour_shows_nothing(make_picture):
+    for level in (0.0, 0.4, 1.0):
+        with pytest.raises(InputError, match="all of one colour"):
+            kind_of(make_picture(np.full((20, 20), level)))
