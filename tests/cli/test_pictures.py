@@ -23,7 +23,7 @@ def font(tmp_path):
     builder.setupGlyphOrder([".notdef", "I"])
     builder.setupCharacterMap({ord("I"): "I"})
     builder.setupGlyf({".notdef": TTGlyphPen(None).glyph(), "I": pen.glyph()})
-    builder.setupHorizontalMetrics(dict.fromkeys((".notdef", "I"), (500, 0)))
+    builder.setupHorizontalMetrics({".notdef": (500, 0), "I": (500, 100)})
     builder.setupHorizontalHeader(ascent=800, descent=-200)
     builder.setupNameTable({"familyName": "One", "styleName": "Regular"})
     builder.setupOS2()

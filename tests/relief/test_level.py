@@ -8,9 +8,9 @@ from relieffab.relief.make import make_relief
 from relieffab.relief.targets import Carving
 
 GRID = Grid.on_panel((40.0, 30.0), (320, 240))
-I, J = np.indices(GRID.shape)
-AREA = (np.abs(I - 119.5) < 60) & (np.abs(J - 99.5) < 60)
-INK = 1.0 * ((np.abs(J - 260) < 4) & (np.abs(I - 120) < 80))
+ROW, COL = np.indices(GRID.shape)
+AREA = (np.abs(ROW - 119.5) < 60) & (np.abs(COL - 99.5) < 60)
+INK = 1.0 * ((np.abs(COL - 260) < 4) & (np.abs(ROW - 120) < 80))
 X, _ = GRID.to_xy(0, 260.5)
 STROKE = Stroke(np.array([[X, 5.0], [X, 25.0]]), "drawn", np.ones(2))
 
@@ -34,7 +34,7 @@ def test_areas_are_sunk_to_the_whole_depth_with_walls(layers):
 
 def test_narrow_areas_have_a_v_for_a_bottom(layers):
     relief, _ = make_relief(layers, Carving(depth=14.0, wall_angle=45.0, line_depth=0.0))
-    assert -relief.heights.min() == pytest.approx(60 * GRID.pitch, abs=0.4)
+    assert -relief.heights.min() == pytest.approx(60 * GRID.pitch, abs=0.5)
 
 
 def test_lines_are_grooves_in_the_face_and_parts_can_be_left_out(layers):

@@ -28,7 +28,7 @@ def build(path, *, kern=False):
     builder.setupGlyphOrder(list(glyphs))
     builder.setupCharacterMap({32: "space", ord("O"): "O", ord("D"): "D", 0x13000: "O"})
     builder.setupGlyf(glyphs)
-    builder.setupHorizontalMetrics(dict.fromkeys(glyphs, (600, 0)))
+    builder.setupHorizontalMetrics({name: (600, 100 * (name == "O")) for name in glyphs})
     builder.setupHorizontalHeader(ascent=800, descent=-200)
     builder.setupNameTable({"familyName": "Three", "styleName": "Regular"})
     builder.setupOS2()

@@ -1,3 +1,5 @@
+from math import comb
+
 import numpy as np
 import pytest
 
@@ -12,9 +14,9 @@ def test_chords_stay_within_the_tolerance(tolerance, degree):
         control = rng.normal(size=(degree + 1, 2)) * 3
         chords = bezier(control, tolerance)
         t = np.linspace(0, 1, 2000)[:, None]
-        basis = {1: [1 - t, t], 2: [(1 - t) ** 2, 2 * t * (1 - t), t**2],
-                 3: [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3]}[degree]  # fmt: skip
-        exact = sum(b * p for b, p in zip(basis, control, strict=True))
+        exact = sum(
+            comb(degree, k) * t**k * (1 - t) ** (degree - k) * control[k] for k in range(degree + 1)
+        )
         at = t[:, 0] * (len(chords) - 1)
         near = np.stack([np.interp(at, np.arange(len(chords)), c) for c in chords.T], axis=1)
         assert np.hypot(*(near - exact).T).max() <= tolerance * 1.001

@@ -19,9 +19,7 @@ def square(**more):
 
 
 def test_art_without_a_size_fits_the_room_and_art_with_one_keeps_it():
-    (scale, _, x), (down, *_), _ = np.array(
-        placed_on(art(square(fill="nonzero")), (40.0, 30.0), margin=3.0)
-    )
+    (scale, _, x), *_ = np.array(placed_on(art(square(fill="nonzero")), (40.0, 30.0), margin=3.0))
     assert (scale, x) == (pytest.approx(2.4), pytest.approx(8.0))
     fixed = placed_on(art(square(fill="nonzero"), page=(20.0, 20.0)), (40.0, 30.0), margin=3.0)
     assert fixed == [[1.0, 0.0, 10.0], [0.0, -1.0, 25.0], [0.0, 0.0, 1.0]]

@@ -13,7 +13,7 @@ def test_glyphs_stand_side_by_side_with_their_holes(font):
     art = write("OO D", font)
     assert [len(mark.rings) for mark in art.marks] == [2, 2, 1]
     np.testing.assert_allclose(np.diff(lefts(art)), [600, 1100], atol=1)
-    (x0, y0, x1, y1) = art.bounds
+    x0, y0, _, y1 = art.bounds
     assert (x0, y0, y1) == pytest.approx((-1100, -700, 0))
     assert art.page is None
     assert {mark.fill for mark in art.marks} == {"nonzero"}

@@ -45,9 +45,10 @@ def _energy(d, start, mask, step):
         for j in range(cols):
             for di, dj in ((0, 1), (1, 0)):
                 a, b, c = ((i + k * di, j + k * dj) for k in range(3))
-                if c[0] < rows and c[1] < cols and mask[a] and mask[b] and mask[c]:
-                    if abs(start[a] - 2 * start[b] + start[c]) <= JUMP * step:
-                        total += (d[a] - 2 * d[b] + d[c]) ** 2
+                if c[0] >= rows or c[1] >= cols or not (mask[a] and mask[b] and mask[c]):
+                    continue
+                if abs(start[a] - 2 * start[b] + start[c]) <= JUMP * step:
+                    total += (d[a] - 2 * d[b] + d[c]) ** 2
             if i + 1 < rows and j + 1 < cols and mask[i : i + 2, j : j + 2].all():
                 four = [(i, j), (i + 1, j + 1), (i, j + 1), (i + 1, j)]
                 s, z = ([v[p] for p in four] for v in (start, d))

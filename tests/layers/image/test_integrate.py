@@ -5,8 +5,8 @@ from scipy.sparse.linalg import spsolve
 
 from relieffab.layers.image.integrate import integrate
 
-I, J = np.indices((40, 50), float)
-MASK = ((I - 20) / 17) ** 2 + ((J - 25) / 22) ** 2 < 1
+ROW, COL = np.indices((40, 50), float)
+MASK = ((ROW - 20) / 17) ** 2 + ((COL - 25) / 22) ** 2 < 1
 
 
 def twin(slopes, mask, pitch, reference, length):
@@ -45,7 +45,7 @@ def test_the_direct_solution_is_found():
 
 @pytest.mark.parametrize("pitch", [0.1, 2.0])
 def test_a_surface_comes_back_from_its_slopes(pitch):
-    x, y = pitch * (J - 25), -pitch * (I - 20)
+    x, y = pitch * (COL - 25), -pitch * (ROW - 20)
     depth = np.sin(x / pitch / 6) * np.cos(y / pitch / 5) * pitch * 4
     slopes = np.stack(
         [
@@ -61,7 +61,7 @@ def test_a_surface_comes_back_from_its_slopes(pitch):
 
 
 def test_parts_that_do_not_touch_are_each_brought_to_the_top():
-    mask = MASK & (np.abs(J - 25) > 2)
+    mask = MASK & (np.abs(COL - 25) > 2)
     found = integrate(np.ones((2, *MASK.shape)), mask, 1.0)
-    for side in (J < 25, J > 25):
+    for side in (COL < 25, COL > 25):
         assert found[mask & side].max() == pytest.approx(0.0, abs=1e-9)

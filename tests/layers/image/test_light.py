@@ -4,11 +4,12 @@ import pytest
 from relieffab.layers.image.light import find_light
 from relieffab.layers.shading import lambert
 
-I, J = np.indices((120, 120)) - 59.5
-MASK = I**2 + J**2 < 50**2
-Z = np.sqrt(np.maximum(50.0**2 - I**2 - J**2, 1.0))
+ROW, COL = np.indices((120, 120)) - 59.5
+MASK = ROW**2 + COL**2 < 50**2
+Z = np.sqrt(np.maximum(50.0**2 - ROW**2 - COL**2, 1.0))
 BALL = (
-    np.stack([J, -I, Z], axis=2) / np.linalg.norm(np.stack([J, -I, Z], axis=2), axis=2)[..., None]
+    np.stack([COL, -ROW, Z], axis=2)
+    / np.linalg.norm(np.stack([COL, -ROW, Z], axis=2), axis=2)[..., None]
 )
 
 
@@ -26,8 +27,8 @@ def test_a_ball_tells_its_light(way, ambient):
 def test_a_flat_figure_is_asked_at_its_rim():
     flat = np.zeros((120, 120, 3))
     flat[..., 2] = 1.0
-    rim = MASK & (I**2 + J**2 > 46**2)
-    out = np.stack([J, -I, np.full(I.shape, 30.0)], axis=2)
+    rim = MASK & (ROW**2 + COL**2 > 46**2)
+    out = np.stack([COL, -ROW, np.full(ROW.shape, 30.0)], axis=2)
     flat[rim] = (out / np.linalg.norm(out, axis=2, keepdims=True))[rim]
     unit = np.array([-1.0, 1.0, 1.0]) / np.sqrt(3)
     grey = lambert(flat, unit[None])[0] * MASK
