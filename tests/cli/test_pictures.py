@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from relieffab.cli.main import main
+from relieffab.cli.main import run
 
 
 @pytest.fixture
@@ -32,8 +32,8 @@ def font(tmp_path):
     return tmp_path / "one.ttf"
 
 
-def run(*words):
-    return main([str(word) for word in words])
+def relieffab(*words):
+    return run([str(word) for word in words])
 
 
 def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
@@ -43,21 +43,21 @@ def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
     Image.fromarray(grey).save(tmp_path / "ball.png")
     small = ("--margin", "3mm", "--depth", "1mm")
     figure, word, both = tmp_path / "figure", tmp_path / "word", tmp_path / "both"
-    assert run("relief", tmp_path / "ball.png", "--size", "30x30mm", "--resolution", "100x100",
+    assert relieffab("relief", tmp_path / "ball.png", "--size", "30x30mm", "--resolution", "100x100",
                *small, "-o", figure) == 0  # fmt: skip
-    assert run("relief", font, "--text", "III", "--size", "30x15mm", "--resolution", "100x50",
+    assert relieffab("relief", font, "--text", "III", "--size", "30x15mm", "--resolution", "100x50",
                *small, "-o", word) == 0  # fmt: skip
     assert "taken for a depth" in capsys.readouterr().out
     places = (f"{figure}@3x20mm", f"{word}@3x2mm")
-    assert run("compose", *places, "--size", "40x55mm", "-o", both) == 0
-    assert run("toolpath", both, "--scallop", "0.03mm") == 0
-    assert run("verify", both) == 0
+    assert relieffab("compose", *places, "--size", "40x55mm", "-o", both) == 0
+    assert relieffab("toolpath", both, "--scallop", "0.03mm") == 0
+    assert relieffab("verify", both) == 0
     report = json.loads((both / "report.json").read_text())
     assert report["verification"]["gouge_mm"] < 0.01
     assert [part["model"]["kind"] for part in report["reliefs"]] == ["depth", "text"]
 
 
 def test_a_missing_glyph_is_said_and_nothing_written(tmp_path, font, capsys):
-    assert run("relief", font, "--text", "IX", "-o", tmp_path / "out") == 2
+    assert relieffab("relief", font, "--text", "IX", "-o", tmp_path / "out") == 2
     assert "lacks glyphs" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()

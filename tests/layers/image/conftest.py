@@ -14,7 +14,7 @@ SIZE, MARGIN = (40.0, 30.0), 3.0
 
 
 def ripples(unit):
-    return 1.0 + 0.04 * np.sin(5 * unit[:, 0]) * np.cos(6 * unit[:, 1])
+    return 1.0 + 0.07 * np.sin(5 * unit[:, 0]) * np.cos(6 * unit[:, 1])
 
 
 @pytest.fixture(scope="session")

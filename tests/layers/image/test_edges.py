@@ -1,12 +1,18 @@
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from relieffab.grid import Grid
 from relieffab.layers.image.edges import draw
 from relieffab.layers.lines.drawing import Drawing
+from relieffab.layers.make import layers_of
+from relieffab.layers.mesh import make_mesh
 from relieffab.layers.shading import default_lights, lambert
+from relieffab.layers.view import View, place
+from relieffab.subject.shapes import torus
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +22,7 @@ def tile(stone):
     i, j = np.indices(grid.shape)
     mask = (np.abs(i - 120) < 100) & (np.abs(j - 160) < 140)
     block = (np.abs(i - 120) < 50) & (np.abs(j - 160) < 50)
-    depth = np.where(block, 6.0 - 1.0 * np.abs(j - 160) * grid.pitch, 0.0)
+    depth = np.where(block, 9.0 - 1.0 * np.abs(j - 160) * grid.pitch, 0.0)
     normals = np.zeros((*grid.shape, 3))
     normals[..., 2] = 1.0
     side = np.where(j < 160, -1.0, 1.0) / np.sqrt(2)
@@ -50,11 +56,15 @@ def test_steps_of_brightness_are_a_photographs_contours(tile):
     assert length(strokes, "contour") > 0.9 * 2 * np.pi * 59 * tile.pitch
 
 
-def test_lines_of_the_form_lie_where_the_meshs_do(stone):
-    strokes = draw(replace(stone, strokes=(), lines=np.zeros(stone.grid.shape)), Drawing())
+def test_contours_lie_where_the_meshs_do():
+    mesh = make_mesh(*torus(2.0, 0.9, (240, 120)), usual_up="z")
+    placed = place(mesh, View(elevation=35.0), (40.0, 30.0), margin=3.0)
+    seen = layers_of(placed, Grid.on_panel((40.0, 30.0), (320, 240)))
+    strokes = draw(replace(seen, strokes=(), lines=np.zeros(seen.grid.shape)), Drawing())
+    assert length(strokes, "contour") == pytest.approx(length(seen.strokes, "contour"), rel=0.15)
     mine, theirs = (
-        np.concatenate([s.points for s in some if s.kind != "outline"])
-        for some in (strokes, stone.strokes)
+        np.concatenate([s.points for s in some if s.kind == "contour"])
+        for some in (strokes, seen.strokes)
     )
-    away = cKDTree(theirs).query(mine)[0]
-    assert np.median(away) < 0.5
+    tree = cKDTree(np.concatenate([np.linspace(a, b, 20) for a, b in pairwise(theirs)]))
+    assert tree.query(mine)[0].max() < 3 * seen.pitch

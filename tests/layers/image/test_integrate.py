@@ -19,7 +19,9 @@ def twin(slopes, mask, pitch, reference, length):
             k, m = i + di, j + dj
             if k < mask.shape[0] and m < mask.shape[1] and mask[k, m]:
                 axis, sign = (0, 1) if dj else (1, -1)
-                ask = sign * pitch * (slopes[axis, i, j] + slopes[axis, k, m]) / 2
+                n = [1 / np.sqrt(1 + (slopes[:, a, b] ** 2).sum()) for a, b in ((i, j), (k, m))]
+                mean = slopes[axis, i, j] * n[0] + slopes[axis, k, m] * n[1]
+                ask = sign * pitch * mean / sum(n)
                 rows += [len(rhs)] * 2
                 cols += [number[k, m], number[i, j]]
                 data += [1.0, -1.0]
