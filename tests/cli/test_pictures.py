@@ -43,11 +43,11 @@ def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
     Image.fromarray(grey).save(tmp_path / "ball.png")
     small = ("--margin", "3mm", "--depth", "1mm")
     figure, word, both = tmp_path / "figure", tmp_path / "word", tmp_path / "both"
-    assert relieffab("relief", tmp_path / "ball.png", "--size", "30x30mm", "--resolution", "100x100",
-               *small, "-o", figure) == 0  # fmt: skip
-    assert relieffab("relief", font, "--text", "III", "--size", "30x15mm", "--resolution", "100x50",
-               *small, "-o", word) == 0  # fmt: skip
-    assert "taken for a depth" in capsys.readouterr().out
+    ball = ("--size", "30x30mm", "--resolution", "100x100")
+    bars = ("--text", "III", "--size", "30x15mm", "--resolution", "100x50")
+    assert relieffab("relief", tmp_path / "ball.png", *ball, *small, "-o", figure) == 0
+    assert relieffab("relief", font, *bars, *small, "-o", word) == 0
+    assert "taken for a depth" in capsys.readouterr().err
     places = (f"{figure}@3x20mm", f"{word}@3x2mm")
     assert relieffab("compose", *places, "--size", "40x55mm", "-o", both) == 0
     assert relieffab("toolpath", both, "--scallop", "0.03mm") == 0

@@ -155,7 +155,7 @@ def _segmented(picture: Picture) -> Bools | None:
     if not inner.any():
         return None
     label = random_walker(
-        small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-3, prob_tol=1e-2
+        small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-4, prob_tol=5e-2
     )
     figure = _but_shadows(label == 2)
     share = figure.mean()
@@ -166,7 +166,7 @@ def _segmented(picture: Picture) -> Bools | None:
 
 
 def _beyond(alike: Bools) -> Bools:
-    """Find what is like the border and joined to it, or a hole, and no mere strip of the figure's own."""
+    """Find what is like the border and joined to it, or as large as a hole, but no strip."""
     alike = alike.copy()
     alike[[0, -1]] = alike[:, [0, -1]] = True
     broad = ndimage.binary_opening(np.pad(alike, STRIP, mode="edge"), iterations=STRIP)

@@ -32,6 +32,8 @@ LENGTH = 0.15
 """Of the figure's longer side: wider forms follow the reference."""
 FLAT = 0.1
 """Of the body's own thickness, where the shading says that it is no such body."""
+ROUGHLY = 3e-3
+"""Tolerance of each integration: the next one sets right what it leaves."""
 CALM = 1.0
 """Deviation of the Gaussian over normals between rounds, pixels."""
 
@@ -87,7 +89,9 @@ def _refine(
     depth = reference
     for _ in range(rounds):
         asked = on_cone(_smooth(normals, mask, CALM), cosine, light.way)
-        depth = integrate(_slopes(asked), mask, pitch, reference=reference, length=length)
+        depth = integrate(
+            _slopes(asked), mask, pitch, reference=reference, length=length, tolerance=ROUGHLY
+        )
         normals = normals_of(slopes_of(depth, mask, pitch), mask)
     return depth, normals
 

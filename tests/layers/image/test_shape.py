@@ -39,8 +39,7 @@ def test_brightness_is_linear():
 
 
 @pytest.mark.parametrize("way", [(-1.0, 1.0, 1.0), (0.6, 0.5, 1.2)])
-def test_the_depth_order_comes_out_of_one_photograph(finer_layers, way):
-    layers = finer_layers
+def test_the_depth_order_comes_out_of_one_photograph(layers, way):
     unit = np.array(way) / np.linalg.norm(way)
     grey = lambert(layers.normals, unit[None])[0] * layers.mask
     facts = {}
