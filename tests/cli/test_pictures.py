@@ -41,15 +41,15 @@ def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
     height = np.sqrt(np.maximum(45.0**2 - i**2 - j**2, 0.0)) / 45.0
     grey = np.where(i**2 + j**2 < 45**2, 2000 + 60000 * height, 0).astype(np.uint16)
     Image.fromarray(grey).save(tmp_path / "ball.png")
-    small = ("--margin", "3mm", "--depth", "1mm")
+    small = ("--margin", "2mm", "--depth", "1mm")
     figure, word, both = tmp_path / "figure", tmp_path / "word", tmp_path / "both"
-    ball = ("--size", "30x30mm", "--resolution", "100x100")
-    bars = ("--text", "III", "--size", "30x15mm", "--resolution", "100x50")
+    ball = ("--size", "20x20mm", "--resolution", "80x80")
+    bars = ("--text", "III", "--size", "20x10mm", "--resolution", "80x40")
     assert relieffab("relief", tmp_path / "ball.png", *ball, *small, "-o", figure) == 0
     assert relieffab("relief", font, *bars, *small, "-o", word) == 0
     assert "taken for a depth" in capsys.readouterr().err
-    places = (f"{figure}@3x20mm", f"{word}@3x2mm")
-    assert relieffab("compose", *places, "--size", "40x55mm", "-o", both) == 0
+    places = (f"{figure}@2x12mm", f"{word}@2x2mm")
+    assert relieffab("compose", *places, "--size", "24x34mm", "-o", both) == 0
     assert relieffab("toolpath", both, "--scallop", "0.03mm") == 0
     assert relieffab("verify", both) == 0
     report = json.loads((both / "report.json").read_text())

@@ -35,9 +35,7 @@ STRIP = 5
 def opaque(picture: Picture) -> Bools:
     """Pixels that show something: opaque, and numbers; (rows, cols)."""
     seen: Bools = np.isfinite(picture.values).all(axis=2)
-    if picture.alpha is not None:
-        seen = seen & (picture.alpha > 0.5)
-    return seen
+    return seen if picture.alpha is None else np.asarray(seen & (picture.alpha > 0.5), bool)
 
 
 def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:

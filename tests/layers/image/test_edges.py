@@ -56,28 +56,27 @@ def test_steps_of_brightness_are_a_photographs_contours(tile):
     assert length(strokes, "contour") > 0.9 * 2 * np.pi * 59 * tile.pitch
 
 
-def test_contours_lie_where_the_meshs_do():
+def ring_seen(elevation):
+    """A torus from that high, at 320 x 240."""
     mesh = make_mesh(*torus(2.0, 0.9, (240, 120)), usual_up="z")
-    placed = place(mesh, View(elevation=20.0), (40.0, 30.0), margin=3.0)
-    seen = layers_of(placed, Grid.on_panel((40.0, 30.0), (320, 240)))
-    strokes = draw(replace(seen, strokes=(), lines=np.zeros(seen.grid.shape)), Drawing())
-    assert length(strokes, "contour") == pytest.approx(length(seen.strokes, "contour"), rel=0.2)
-    mine, theirs = (
-        np.concatenate([s.points for s in some if s.kind == "contour"])
-        for some in (strokes, seen.strokes)
-    )
-    tree = cKDTree(np.concatenate([np.linspace(a, b, 20) for a, b in pairwise(theirs)]))
-    assert tree.query(mine)[0].max() < 3 * seen.pitch
+    placed = place(mesh, View(elevation=elevation), (40.0, 30.0), margin=3.0)
+    return layers_of(placed, Grid.on_panel((40.0, 30.0), (320, 240)))
 
 
-def test_where_the_surface_turns_is_drawn_as_the_mesh_s_suggestive_contours():
-    mesh = make_mesh(*torus(2.0, 0.9, (240, 120)), usual_up="z")
-    placed = place(mesh, View(elevation=35.0), (40.0, 30.0), margin=3.0)
-    seen = layers_of(placed, Grid.on_panel((40.0, 30.0), (320, 240)))
+def along(strokes, kind):
+    """Points along the strokes of a kind, close together."""
+    pieces = [
+        np.linspace(a, b, 20) for s in strokes if s.kind == kind for a, b in pairwise(s.points)
+    ]
+    return np.concatenate(pieces)
+
+
+@pytest.mark.parametrize(
+    ("kind", "elevation", "off"), [("contour", 20.0, 0.3), ("suggestive", 35.0, 0.7)]
+)
+def test_lines_lie_where_the_meshs_do(kind, elevation, off):
+    seen = ring_seen(elevation)
     strokes = draw(replace(seen, strokes=(), lines=np.zeros(seen.grid.shape)), Drawing())
-    mine, theirs = (
-        np.concatenate([s.points for s in some if s.kind == "suggestive"])
-        for some in (strokes, seen.strokes)
-    )
-    assert cKDTree(theirs).query(mine)[0].max() < 1.6
-    assert cKDTree(mine).query(theirs)[0].max() < 0.8
+    mine, theirs = along(strokes, kind), along(seen.strokes, kind)
+    assert np.quantile(cKDTree(theirs).query(mine)[0], 0.75) < off
+    assert np.quantile(cKDTree(mine).query(theirs)[0], 0.75) < off

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from relieffab.errors import InputError
+from relieffab.grid import Grid
 from relieffab.layers.image.make import Showing, layers_of_picture
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import nodes_of
@@ -74,7 +75,8 @@ def test_words_settle_what_values_would(stone, depth_map, normal_map):
 
 def test_a_photograph_has_lines_and_says_how_it_was_read(stone, make_picture):
     shaded = np.where(stone.mask, 0.1 + 0.9 * stone.shading[0], 0.0)
-    found = seen(make_picture(shaded), stone)
+    coarse = Grid.on_panel((40.0, 30.0), (160, 120))
+    found = layers_of_picture(make_picture(shaded), coarse, (40.0, 30.0), margin=3.0)
     assert found.facts["kind"] == "photo"
     assert found.facts["mask"] == "even background"
     assert {stroke.kind for stroke in found.layers.strokes} >= {"outline"}
