@@ -55,3 +55,26 @@ def layers(model):
 def finer_layers(model):
     """Layers of the model at 320 x 240."""
     return layers_of_size(model, 320)
+
+
+def plane_layers(p, q, step=0.0):
+    """A tilted plane, its right half `step` mm higher."""
+    grid = Grid(20, 30, 0.5, (0.0, 10.0))
+    i, j = np.indices(grid.shape)
+    x, y = grid.to_xy(i + 0.5, j + 0.5)
+    normal = np.array([-p, -q, 1]) / np.sqrt(1 + p * p + q * q)
+    return Layers(
+        grid=grid,
+        depth=p * x + q * y + step * (j >= 15),
+        normals=np.broadcast_to(normal, (*grid.shape, 3)).copy(),
+        mask=np.ones(grid.shape, bool),
+        lights=default_lights(),
+        shading=np.zeros((2, *grid.shape)),
+        lines=np.zeros(grid.shape),
+    )
+
+
+@pytest.fixture(name="plane_layers")
+def make_plane_layers():
+    """Return the function that makes layers of a tilted plane."""
+    return plane_layers

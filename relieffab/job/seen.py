@@ -12,7 +12,7 @@ from relieffab.job.settings import Job
 from relieffab.layers.art.art import Art
 from relieffab.layers.art.make import layers_of_art, placed_on
 from relieffab.layers.art.svg import read_svg
-from relieffab.layers.art.text import write
+from relieffab.layers.art.text import set_text
 from relieffab.layers.content import FONT, MESH, PICTURE, content_of
 from relieffab.layers.image.make import Showing, layers_of_picture
 from relieffab.layers.image.picture import Picture
@@ -68,7 +68,7 @@ def read_model(job: Job) -> Model:
         return read_mesh(job.model)
     if kind == PICTURE:
         return read_picture(job.model)
-    return write(job.text or "", job.model) if kind == FONT else read_svg(job.model)
+    return set_text(job.text or "", job.model) if kind == FONT else read_svg(job.model)
 
 
 def _check_settings(job: Job, kind: str) -> None:

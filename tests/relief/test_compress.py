@@ -3,44 +3,8 @@ import pytest
 
 from relieffab.grid import Grid
 from relieffab.layers.model import Layers
-from relieffab.layers.shading import default_lights
-from relieffab.relief.compress import (
-    STEEPEST,
-    beside,
-    compress,
-    form,
-    occlusions,
-    slopes,
-    without_specks,
-)
-
-
-def plane_layers(p, q, step=0.0):
-    """A tilted plane, its right half `step` mm higher."""
-    grid = Grid(20, 30, 0.5, (0.0, 10.0))
-    i, j = np.indices(grid.shape)
-    x, y = grid.to_xy(i + 0.5, j + 0.5)
-    normal = np.array([-p, -q, 1]) / np.sqrt(1 + p * p + q * q)
-    return Layers(
-        grid=grid,
-        depth=p * x + q * y + step * (j >= 15),
-        normals=np.broadcast_to(normal, (*grid.shape, 3)).copy(),
-        mask=np.ones(grid.shape, bool),
-        lights=default_lights(),
-        shading=np.zeros((2, *grid.shape)),
-        lines=np.zeros(grid.shape),
-    )
-
-
-def test_slopes_of_a_plane():
-    v = slopes(plane_layers(0.3, -0.8))
-    np.testing.assert_allclose(v[0], 0.3)
-    np.testing.assert_allclose(v[1], -0.8)
-
-
-def test_slopes_stop_at_the_steepest():
-    v = slopes(plane_layers(300.0, 400.0))
-    np.testing.assert_allclose(np.hypot(v[0], v[1]), STEEPEST)
+from relieffab.layers.occlusion import beside, occlusions, slopes
+from relieffab.relief.compress import compress, form, without_specks
 
 
 def test_compression_keeps_direction_and_order():
@@ -58,18 +22,7 @@ def test_gentle_slopes_are_kept():
     assert (compress(np.zeros((2, 4, 4))) == 0).all()
 
 
-@pytest.mark.parametrize(("p", "q"), [(0.0, 0.0), (2.0, -1.0), (6.0, 3.0)])
-def test_a_plane_has_no_occlusion_and_a_step_has(p, q):
-    smooth = plane_layers(p, q)
-    assert not any(o.any() for o in occlusions(smooth, slopes(smooth)))
-    torn = plane_layers(p, q, step=0.5 * 2 * (1.1 + max(p, -q)))
-    across, down = occlusions(torn, slopes(torn))
-    assert across[:, 14].all()
-    assert across.sum() == 20
-    assert not down.any()
-
-
-def test_a_tear_counts_if_it_is_long_or_drawn():
+def test_a_tear_counts_if_it_is_long_or_drawn(plane_layers):
     layers = plane_layers(0.0, 0.0)
     depth, lines = np.zeros(layers.grid.shape), np.zeros(layers.grid.shape)
     depth[2:12, 4:8] = 3.0
@@ -88,7 +41,7 @@ def test_a_tear_counts_if_it_is_long_or_drawn():
     assert not without_specks(layers, np.zeros(layers.grid.shape, bool)).any()
 
 
-def test_form_keeps_the_depth_order_and_its_room():
+def test_form_keeps_the_depth_order_and_its_room(plane_layers):
     rng = np.random.default_rng(2)
     layers = plane_layers(0.1, 0.2)
     depth = rng.gamma(1.0, 5.0, layers.grid.shape)

@@ -117,7 +117,9 @@ def _marks(root: Any, where: str) -> tuple[Mark, ...]:
 
     try:
         page = SVG.parse(io.BytesIO(etree.tostring(root)), reify=True, ppi=MM)
-        found = [(shape, Path(shape)) for shape in page.elements() if isinstance(shape, Shape)]
+        found = [
+            (shape, Path(shape).reify()) for shape in page.elements() if isinstance(shape, Shape)
+        ]
     except (
         ValueError,
         TypeError,
@@ -183,7 +185,7 @@ def _mark(shape: Any, rings: tuple[Ring, ...]) -> Mark | None:
     """Say what of a shape is painted; None if nothing is."""
     fill, stroke = _tone(shape.fill), _tone(shape.stroke)
     rule = shape.values.get("fill-rule", "nonzero")
-    width = float(shape.stroke_width or 0.0)
+    width = float(shape.implicit_stroke_width or 0.0)
     drawn = stroke is not None and stroke < PAPER and width > 0
     if not rings or (fill is None and not drawn):
         return None

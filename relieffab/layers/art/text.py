@@ -17,7 +17,7 @@ LINE = 1.2
 """Between lines of text, in units of the font's size."""
 
 
-def write(text: str, font: str | Path) -> Art:
+def set_text(text: str, font: str | Path) -> Art:
     r"""Set text in a font: one glyph a character, kerned by pairs, lines centred.
 
     Parameters

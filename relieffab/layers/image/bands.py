@@ -17,7 +17,7 @@ Bools = NDArray[np.bool_]
 
 FEWEST, MOST = 16, 4096
 """Levels between which plateaus are taken for banding: fewer are steps that are meant."""
-FLAT = 0.25
+FLAT = 0.05
 """Share of neighbours on one level from which a map is banded."""
 JUMP = 3.0
 """Second difference, steps, up to which three pixels are one surface: rounding alone makes 2."""

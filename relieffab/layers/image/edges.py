@@ -88,7 +88,7 @@ def _turning(layers: Layers, drawing: Drawing) -> Chains:
     """Where the surface turns away and back: ridges of the angle off the view.
 
     Valleys of n.v are where suggestive contours lie (DeCarlo 2003, Sect. 2.2), and
-    what a line is worth is told as for a mesh.
+    what a line is worth is told as for a mesh, by half the tilt: a picture is smoothed on its grid.
     """
     grid, sigma = layers.grid, _sigma(drawing, layers.pitch)
     calm = np.stack([_smooth(layers.normals[..., k], layers.mask, sigma) for k in range(3)], -1)
@@ -101,7 +101,7 @@ def _turning(layers: Layers, drawing: Drawing) -> Chains:
         return chains
     depth = np.where(layers.mask, layers.depth, -np.inf)
     raster = Raster(depth, np.where(layers.mask, 0, -1).astype(np.int32))
-    return replace(chains, strength=fading(contrast(chains, angle, raster, grid), LEAST))
+    return replace(chains, strength=fading(contrast(chains, angle, raster, grid), LEAST / 2))
 
 
 def _steps(grey: Floats, layers: Layers, drawing: Drawing) -> tuple[Bools, Floats]:

@@ -14,6 +14,30 @@ TWO_TONED = 0.9
 """Share of a drawing's pixels that are nearly its darkest or its lightest."""
 
 
+def check_shown(picture: Picture) -> None:
+    """Refuse a picture that shows nothing.
+
+    Raises
+    ------
+    InputError
+        If no pixel is opaque and a number, or all are alike.
+    """
+    values = picture.values[opaque(picture)]
+    if not len(values):
+        raise InputError(
+            "the picture shows nothing",
+            expected="pixels that are opaque, and numbers",
+            found="all transparent, NaN or infinite",
+            where=picture.name,
+        )
+    if picture.alpha is None and np.ptp(values, axis=0).max() == 0:
+        raise InputError(
+            "the picture is all of one colour: it shows nothing",
+            found=f"{picture.shape[1]} x {picture.shape[0]} pixels alike",
+            where=picture.name,
+        )
+
+
 def kind_of(picture: Picture) -> str:
     """Guess what a picture shows.
 
@@ -25,25 +49,13 @@ def kind_of(picture: Picture) -> str:
     -------
     str
         One of `names.KINDS`.
-
-    Raises
-    ------
-    InputError
-        If all its pixels are alike.
     """
-    seen = opaque(picture)
-    values = picture.values[seen]
-    if np.ptp(values, axis=0).max() == 0:
-        raise InputError(
-            "the picture is all of one colour: it shows nothing",
-            found=f"{picture.shape[1]} x {picture.shape[0]} pixels alike",
-            where=picture.name,
-        )
+    values = picture.values[opaque(picture)]
     if picture.coloured:
         return NORMAL if _unit_vectors(values, picture.bits) else PHOTO
     if picture.bits is None or picture.bits > 8:
         return DEPTH
-    grey = picture.grey[seen]
+    grey = picture.grey[opaque(picture)]
     low, high = np.percentile(grey, (0.1, 99.9))
     near = np.minimum(grey - low, high - grey) < 0.12 * max(high - low, 1e-9)
     return DRAWING if near.mean() >= TWO_TONED else PHOTO

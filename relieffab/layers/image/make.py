@@ -15,7 +15,7 @@ from relieffab.layers.image.figure import find_figure
 from relieffab.layers.image.fit import Fit, fit_on
 from relieffab.layers.image.ink import ink_layers
 from relieffab.layers.image.integrate import integrate
-from relieffab.layers.image.kind import kind_of
+from relieffab.layers.image.kind import check_shown, kind_of
 from relieffab.layers.image.names import DEPTH, DEPTH_FAR, DRAWING, NORMAL_DOWN, PHOTO
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.scale import to_length, white_is_far
@@ -117,6 +117,7 @@ def layers_of_picture(
         If it shows nothing of the kind.
     """
     showing, drawing = showing or Showing(), drawing or Drawing()
+    check_shown(picture)
     kind = showing.kind or kind_of(picture)
     facts: Facts = {"kind": kind, "kind_by": "setting" if showing.kind else "values"}
     if kind == DRAWING:

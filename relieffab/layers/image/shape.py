@@ -15,7 +15,7 @@ from skimage.transform import resize
 
 from relieffab.layers.image.inflate import inflate
 from relieffab.layers.image.integrate import integrate
-from relieffab.layers.image.light import Light, find_light
+from relieffab.layers.image.light import ROUND, Light, find_light
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.steps import normals_of, slopes_of
 
@@ -24,12 +24,16 @@ Bools = NDArray[np.bool_]
 
 WORKING = 192
 """Pixels each way at most while the form is sought; finer ones only add detail."""
-ROUNDS = 30
+ROUNDS = 20
 """Of cones and surfaces in turn while it is."""
 FINER = 3
 """The same, on the panel's own pixels."""
 LENGTH = 0.15
 """Of the figure's longer side: wider forms follow the reference."""
+FLAT = 0.1
+"""Of the body's own thickness, where the shading says that it is no such body."""
+ROUGHLY = 3e-3
+"""Tolerance of each integration: the next one sets right what it leaves."""
 CALM = 1.0
 """Deviation of the Gaussian over normals between rounds, pixels."""
 
@@ -85,7 +89,9 @@ def _refine(
     depth = reference
     for _ in range(rounds):
         asked = on_cone(_smooth(normals, mask, CALM), cosine, light.way)
-        depth = integrate(_slopes(asked), mask, pitch, reference=reference, length=length)
+        depth = integrate(
+            _slopes(asked), mask, pitch, reference=reference, length=length, tolerance=ROUGHLY
+        )
         normals = normals_of(slopes_of(depth, mask, pitch), mask)
     return depth, normals
 
@@ -123,6 +129,9 @@ def shape_of(
     reference = resize(body, shape, order=1, anti_aliasing=True) * there
     normals = normals_of(slopes_of(reference, there, step), there)
     light = find_light(small, normals, there)
+    if light.fit < ROUND:
+        body, reference = FLAT * body, FLAT * reference
+        normals = normals_of(slopes_of(reference, there, step), there)
     sides = [np.ptp(np.flatnonzero(mask.any(axis=axis))) + 1 for axis in (0, 1)]
     length = LENGTH * pitch * float(max(sides))
     depth, normals = _refine(

@@ -1,0 +1,63 @@
+import numpy as np
+import pytest
+from PIL import Image
+
+from relieffab.errors import InputError
+from relieffab.layers.image.figure import ALPHA, BACKGROUND, GIVEN, SEGMENTED, WHOLE, find_figure
+
+
+def test_transparency_and_nan_are_background(stone, make_picture):
+    alpha = stone.mask.astype(float)
+    mask, source = find_figure(make_picture(stone.depth, alpha=alpha), even=True)
+    assert source == ALPHA
+    np.testing.assert_array_equal(mask, stone.mask)
+    unknown = np.where(stone.mask, stone.depth, np.nan)
+    mask, source = find_figure(make_picture(unknown, bits=None), even=True)
+    np.testing.assert_array_equal(mask, stone.mask)
+
+
+def test_an_even_background_is_background(stone, depth_map, normal_map):
+    for picture in (depth_map(stone, 16)[0], depth_map(stone, 8, white_far=True)[0]):
+        mask, source = find_figure(picture, even=True)
+        assert source == BACKGROUND
+        np.testing.assert_array_equal(mask, stone.mask)
+    mask, _ = find_figure(normal_map(stone, 8), even=True)
+    # The one normal that faces the viewer exactly has the background's colour.
+    assert (mask != stone.mask).sum() < 20
+
+
+def test_a_photograph_is_segmented(stone, make_picture):
+    rng = np.random.default_rng(0)
+    shaded = np.where(stone.mask, 0.2 + 0.8 * stone.shading[0], 0.45)
+    shaded = shaded + 0.01 * rng.standard_normal(shaded.shape)
+    mask, source = find_figure(make_picture(shaded), even=False)
+    assert source == SEGMENTED
+    assert (mask != stone.mask).mean() < 0.01
+
+
+def test_what_has_no_background_is_figure_all_over(make_picture):
+    noise = np.random.default_rng(0).random((64, 80))
+    mask, source = find_figure(make_picture(noise), even=False)
+    assert (source, mask.all()) == (WHOLE, True)
+
+
+def test_a_given_mask_counts_and_must_fit(stone, make_picture, tmp_path):
+    path = tmp_path / "mask.png"
+    half = stone.mask & (np.arange(stone.grid.cols) < 160)
+    Image.fromarray(half.astype(np.uint8) * 255).save(path)
+    mask, source = find_figure(make_picture(stone.depth), str(path), even=True)
+    assert source == GIVEN
+    np.testing.assert_array_equal(mask, half)
+    Image.fromarray(half[:100].astype(np.uint8) * 255).save(path)
+    with pytest.raises(InputError, match="does not fit"):
+        find_figure(make_picture(stone.depth), str(path), even=True)
+    with pytest.raises(InputError, match="is empty"):
+        find_figure(make_picture(stone.depth, alpha=np.zeros(stone.grid.shape)), even=True)
+
+
+def test_specks_are_no_figure(stone, depth_map):
+    picture, _ = depth_map(stone, 16)
+    spoiled = picture.values.copy()
+    spoiled[3, 3] = 0.5
+    mask, _ = find_figure(type(picture)(spoiled, None, 16, "PNG", "a"), even=True)
+    assert not mask[3, 3]
