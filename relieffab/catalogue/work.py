@@ -1,5 +1,6 @@
 """One job of a batch, carried out: the function that every worker runs, wherever it is."""
 
+import os
 import platform
 import threading
 import time
@@ -55,7 +56,12 @@ def _carried_out(task: Task) -> Report:
     with finished_together(task.folder, (*ALL, THUMBNAIL)) as scratch:
         report: Report = getattr(run, _MAKERS[task.stage])(task.settings, scratch, progress=going)
         seconds = round(time.perf_counter() - start, 3)
-        report["batch"] = {"key": task.key, "stage": task.stage, "seconds": seconds}
+        report["batch"] = {
+            "key": task.key,
+            "stage": task.stage,
+            "seconds": seconds,
+            "worker": f"process {os.getpid()} on {platform.node()}",
+        }
         write_report(report, scratch)
         (scratch / THUMBNAIL).write_bytes(thumbnail(scratch))
         going("batch", 1, 1)

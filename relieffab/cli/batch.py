@@ -132,6 +132,9 @@ def _sum(found: Mapping[str, Any], folder: Path) -> None:
     for row in found["jobs"]:
         if row["status"] == "failed":
             console.message(f"\n{row['name']}: {row['message']}")
+    if found["others"]:
+        names = ", ".join(found["others"])
+        console.message(f"note: no job of this batch, and left as they are: {names}")
     known = {"done": "done", "kept": "done before", "failed": "failed"}
     counts = ", ".join(f"{found[key]} {word}" for key, word in known.items() if found[key])
     print(f"\n{len(found['jobs'])} jobs: {counts}")
