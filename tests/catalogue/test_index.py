@@ -31,8 +31,9 @@ def test_a_row_tells_what_the_report_knows():
     made = row(Entry("a b", "m/a.ply", "Inv. 7"), WHOLE, DONE, 2)
     assert made == {
         "name": "a b", "model": "m/a.ply", "note": "Inv. 7", "status": "done", "tries": 2,
-        "stage": "make", "seconds": 3.2, "worker": "process 7 on host", "size_mm": [120, 90], "depth_mm": 3.0,
-        "cutting_s": 5400.0, "programs": 2, "carves": True, "findings": [], "notes": [],
+        "stage": "make", "seconds": 3.2, "worker": "process 7 on host", "size_mm": [120, 90],
+        "depth_mm": 3.0, "cutting_s": 5400.0, "programs": 2, "carves": True,
+        "findings": [], "notes": [],
         "files": {
             "report": "a%20b/report.html", "thumbnail": "a%20b/thumbnail.jpg",
             "picture": "a%20b/preview.png", "relief": "a%20b/relief.tiff",
