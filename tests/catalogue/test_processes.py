@@ -64,9 +64,8 @@ def test_memory_says_how_many_run_at_once():
     def task(memory):
         return Task("", {}, "", "", None, "", memory)
 
-    engine = Processes(3, 10)
-    assert engine.takes(task(4), [task(6)])
-    assert not engine.takes(task(5), [task(6)])
+    assert Processes(3, 10).free([task(6)]) == 4
+    assert Processes(0, 10).free([]) == -1
 
 
 def test_eight_jobs_and_a_worker_killed_midway(stones):
