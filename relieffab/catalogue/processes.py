@@ -45,7 +45,7 @@ class Processes:
 
     def __init__(self, workers: int, memory: int, work: Work = carry_out) -> None:
         self.room = memory
-        threads = max(1, cores() // max(1, workers))
+        threads = max(1, cores() // workers)
         self._idle = [_Worker(work, threads) for _ in range(workers)]
         self._busy: dict[Future[Result], _Worker] = {}
 

@@ -4,7 +4,6 @@ import os
 import platform
 import threading
 import time
-from pathlib import Path
 
 from relieffab import __version__
 from relieffab.catalogue.identity import finished, key_of
@@ -72,7 +71,7 @@ def _check_here(task: Task) -> None:
     """Refuse to work where the batch cannot be seen, or would come out otherwise."""
     here = platform.node()
     _check_lasts(task)
-    if not task.model.is_file() and not Path(task.model).parent.is_dir():
+    if not task.model.parent.is_dir():
         raise InputError("the model's folder is not there", where=f"{task.model} on {here}")
     if key_of(task.settings) != task.key:
         raise InputError(
