@@ -1,5 +1,6 @@
 """Workers of a Dask cluster, on as many machines as it has."""
 
+import logging
 import sys
 from collections.abc import Collection
 from concurrent.futures import CancelledError, Future
@@ -43,6 +44,8 @@ class Cluster:
                 where="--scheduler",
                 hint="pip install 'relieffab[cluster]', here and on every machine",
             ) from None
+        # What goes wrong is told by `settle`, in a sentence.
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)
         self._address, self._work, self._killed = address, work, KilledWorker
         try:
             self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
@@ -80,9 +83,9 @@ class Cluster:
     ) -> None:
         self._client.close()
 
-    def takes(self, task: Task, running: Collection[Task]) -> bool:  # noqa: ARG002
-        """Tell whether there are more workers than tasks."""
-        return len(running) < max(1, len(self._workers()))
+    def free(self, running: Collection[Task]) -> int:
+        """Tell how much memory a task may take where there are more workers than tasks."""
+        return self.room if len(running) < max(1, len(self._workers())) else -1
 
     def submit(self, task: Task) -> "Future[Result]":
         """Hand a task to the scheduler."""

@@ -27,8 +27,11 @@ class Engine(Protocol):
     room: int
     tries: int
 
-    def takes(self, task: Task, running: Collection[Task]) -> bool:
-        """Tell whether a task may begin beside those that run."""
+    def free(self, running: Collection[Task]) -> int:
+        """Tell how much memory a task may take that begins beside those that run, bytes.
+
+        Negative where no worker is free.
+        """
 
     def submit(self, task: Task) -> "Future[Result]":
         """Have a task carried out."""
@@ -62,10 +65,10 @@ def outcomes(
         for task in [task for task in waiting if task.memory > engine.room]:
             waiting.remove(task)
             yield task, _too_large(task, engine.room), begun[task.name]
-        while begins := [task for task in waiting if engine.takes(task, running.values())][:1]:
-            waiting.remove(begins[0])
-            begun[begins[0].name] += 1
-            running[engine.submit(begins[0])] = begins[0]
+        while (ready := _first(waiting, engine.free(running.values()))) is not None:
+            waiting.remove(ready)
+            begun[ready.name] += 1
+            running[engine.submit(ready)] = ready
         heed()
         for future in wait(running, timeout=TICK, return_when=FIRST_COMPLETED).done:
             task = running.pop(future)
@@ -74,6 +77,10 @@ def outcomes(
                 waiting.append(replace(task, memory=min(2 * task.memory, engine.room)))
             else:
                 yield task, _died(death) if death else _result(future), begun[task.name]
+
+
+def _first(waiting: Sequence[Task], free: int) -> Task | None:
+    return next((task for task in waiting if task.memory <= free), None)
 
 
 def _too_large(task: Task, room: int) -> Fault:

@@ -1,7 +1,7 @@
 """The jobs of a batch, each with its name, its settings, and what it will take."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +70,10 @@ def _entry(
         if settings["model"].value is None:
             raise InputError("the job names no model", expected='model = "FILE"', where=job.where)
         key = key_of(settings)
+        # A worker may stand elsewhere than the person does.
+        model = Path(settings["model"].value).absolute()
     except InputError as fault:
         return Entry(name, job.model, job.note, fault=str(fault))
-    memory = memory_of(stage, settings["resolution"].value, Path(settings["model"].value))
+    memory = memory_of(stage, settings["resolution"].value, model)
+    settings["model"] = replace(settings["model"], text=str(model), value=str(model))
     return Entry(name, job.model, job.note, settings, key, memory)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cache
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from relieffab.catalogue.rows import DONE, FAILED, KEPT, WAITING
@@ -22,7 +23,7 @@ def _template() -> "Template":
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    there.filters.update(clock=clock, verdict=verdict, sides=_sides)
+    there.filters.update(clock=clock, verdict=verdict, sides=_sides, file=_file)
     return there.get_template("index.html")
 
 
@@ -37,6 +38,10 @@ def verdict(row: Mapping[str, Any]) -> str:
 
 def _sides(size: tuple[float, float]) -> str:
     return " × ".join(f"{side:g}" for side in size)  # noqa: RUF001
+
+
+def _file(path: str) -> str:
+    return PurePath(path).name
 
 
 def index(batch: Mapping[str, Any]) -> str:

@@ -1,6 +1,5 @@
 """A name for each job, fit for a folder, and no two alike."""
 
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import PurePath
 
@@ -22,7 +21,7 @@ def distinct_names(jobs: Sequence[Wanted]) -> list[str]:
     """
     spelled = [[_fit(way) for way in _ways(job)] for job in jobs]
     level = [0] * len(jobs)
-    while alike := _alike([ways[k] for ways, k in zip(spelled, level, strict=True)], TAKEN):
+    while alike := _alike([ways[k] for ways, k in zip(spelled, level, strict=True)], jobs):
         more = [i for i in alike if level[i] + 1 < len(spelled[i])]
         if not more:
             break
@@ -47,9 +46,12 @@ def _fit(name: str) -> str:
     return kept.lstrip(".-").rstrip(". ")[:LONGEST] or "model"
 
 
-def _alike(names: Sequence[str], taken: Sequence[str]) -> list[int]:
-    count = Counter([*(name.casefold() for name in names), *taken])
-    return [i for i, name in enumerate(names) if count[name.casefold()] > 1]
+def _alike(names: Sequence[str], jobs: Sequence[Wanted]) -> list[int]:
+    """List the jobs whose names also stand for another model, or for the catalogue's files."""
+    models: dict[str, set[str]] = {name: {""} for name in TAKEN}
+    for name, job in zip(names, jobs, strict=True):
+        models.setdefault(name.casefold(), set()).add(job.model or job.where)
+    return [i for i, name in enumerate(names) if len(models[name.casefold()]) > 1]
 
 
 def _numbered(names: Sequence[str]) -> list[str]:

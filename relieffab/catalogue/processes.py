@@ -61,9 +61,9 @@ class Processes:
         for worker in (*self._busy.values(), *self._idle):
             worker.end()
 
-    def takes(self, task: Task, running: Collection[Task]) -> bool:
-        """Tell whether there are a worker and the memory for a task."""
-        return bool(self._idle) and task.memory + sum(t.memory for t in running) <= self.room
+    def free(self, running: Collection[Task]) -> int:
+        """Tell how much memory is left for one task more; negative without a worker for it."""
+        return self.room - sum(task.memory for task in running) if self._idle else -1
 
     def submit(self, task: Task) -> "Future[Result]":
         """Have an idle worker carry out a task."""

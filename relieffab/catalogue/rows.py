@@ -47,6 +47,7 @@ def _facts(report: Mapping[str, Any]) -> Row:
     return {
         "stage": report["batch"]["stage"],
         "seconds": report["batch"]["seconds"],
+        "worker": report["batch"]["worker"],
         "size_mm": list(readers.size(report["settings"]["size"])),
         "depth_mm": report["relief"]["depth_mm"] if "relief" in report else None,
         "cutting_s": sum(part["seconds"] for part in programs) if programs else None,

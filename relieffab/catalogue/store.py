@@ -10,7 +10,7 @@ from relieffab import __version__
 from relieffab.catalogue.index import index
 from relieffab.catalogue.rows import DONE, FAILED, KEPT, WAITING, Row
 from relieffab.errors import InputError
-from relieffab.job.folder import check_folder
+from relieffab.job.folder import REPORT, check_folder
 
 TABLE, PAGE = "batch.json", "index.html"
 SCHEMA = 1
@@ -26,9 +26,17 @@ def summary(folder: Path, stage: str, rows: Sequence[Row], seconds: float) -> di
         "stage": stage,
         "seconds": round(seconds, 3),
         **{status: count[status] for status in (DONE, KEPT, FAILED, WAITING)},
+        "others": strangers(folder, rows),
         "findings": sum(bool(row.get("findings")) for row in rows),
         "jobs": list(rows),
     }
+
+
+def strangers(folder: Path, rows: Sequence[Row]) -> list[str]:
+    """Name the jobs in a catalogue that belong to none of these rows: of other lists, say."""
+    known = {row["name"] for row in rows}
+    names = sorted(path.parent.name for path in folder.glob(f"*/{REPORT}"))
+    return [name for name in names if name not in known]
 
 
 def write(batch: Mapping[str, Any], folder: Path) -> None:

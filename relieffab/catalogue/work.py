@@ -1,9 +1,9 @@
 """One job of a batch, carried out: the function that every worker runs, wherever it is."""
 
+import os
 import platform
 import threading
 import time
-from pathlib import Path
 
 from relieffab import __version__
 from relieffab.catalogue.identity import finished, key_of
@@ -55,7 +55,12 @@ def _carried_out(task: Task) -> Report:
     with finished_together(task.folder, (*ALL, THUMBNAIL)) as scratch:
         report: Report = getattr(run, _MAKERS[task.stage])(task.settings, scratch, progress=going)
         seconds = round(time.perf_counter() - start, 3)
-        report["batch"] = {"key": task.key, "stage": task.stage, "seconds": seconds}
+        report["batch"] = {
+            "key": task.key,
+            "stage": task.stage,
+            "seconds": seconds,
+            "worker": f"process {os.getpid()} on {platform.node()}",
+        }
         write_report(report, scratch)
         (scratch / THUMBNAIL).write_bytes(thumbnail(scratch))
         going("batch", 1, 1)
@@ -66,7 +71,7 @@ def _check_here(task: Task) -> None:
     """Refuse to work where the batch cannot be seen, or would come out otherwise."""
     here = platform.node()
     _check_lasts(task)
-    if not task.model.is_file() and not Path(task.model).parent.is_dir():
+    if not task.model.parent.is_dir():
         raise InputError("the model's folder is not there", where=f"{task.model} on {here}")
     if key_of(task.settings) != task.key:
         raise InputError(

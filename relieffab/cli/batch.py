@@ -1,6 +1,7 @@
 """batch: many jobs into one folder, with a page that shows them all."""
 
 import os
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -102,12 +103,13 @@ def _engine(
 
 def _teller(count: int, *, as_json: bool) -> Callable[[Mapping[str, Any]], None]:
     """Return what prints a line for each job: beside the JSON, or as the result."""
-    say, known = console.message if as_json else print, 0
+    stream, known = sys.stderr if as_json else sys.stdout, 0
 
     def tell(row: Mapping[str, Any]) -> None:
         nonlocal known
         known += 1
-        say(f"{known:>{len(str(count))}} of {count}  {line(row)}")
+        number = f"{known:>{len(str(count))}} of {count}"
+        print(f"{number}  {line(row)}", file=stream, flush=True)
 
     return tell
 
@@ -132,6 +134,9 @@ def _sum(found: Mapping[str, Any], folder: Path) -> None:
     for row in found["jobs"]:
         if row["status"] == "failed":
             console.message(f"\n{row['name']}: {row['message']}")
+    if found["others"]:
+        names = ", ".join(found["others"])
+        console.message(f"note: no job of this batch, and left as they are: {names}")
     known = {"done": "done", "kept": "done before", "failed": "failed"}
     counts = ", ".join(f"{found[key]} {word}" for key, word in known.items() if found[key])
     print(f"\n{len(found['jobs'])} jobs: {counts}")

@@ -2,10 +2,11 @@
 
     python tests/benchmarks/batch.py [JOBS] [RESOLUTION]
 
-By processes and by a local Dask cluster, with jobs that only wait, a quarter of a second each, and
-with reliefs.  The former tell what the batch itself costs, whatever else the machine has to do; of
+By processes and by a local Dask cluster, with jobs that only wait, half a second each, and with
+reliefs.  The former tell what the batch itself costs, whatever else the machine has to do; of
 the latter what came out is counted on the disk.  Where cores are taken, two workers cannot be twice
-as fast as one: so the ratio of two processes that merely count is printed, too.
+as fast as one: so the ratio of two processes that merely count is printed, too, and how many jobs
+each worker did, which is what the time would follow on cores of their own.
 """
 
 import multiprocessing
@@ -37,6 +38,7 @@ from relieffab.subject import shapes
 
 ROOM = 16 << 30
 COUNTED = 30_000_000
+DOZE = 0.5  # seconds
 
 
 def models(count: int, folder: Path) -> None:
@@ -71,11 +73,11 @@ def ceiling() -> float:
 
 def doze(task: Task) -> dict[str, Any]:
     """Take the time of a job, and no core."""
-    time.sleep(0.25)
+    time.sleep(DOZE)
     return {
         "settings": {"size": "1x1mm"},
         "model": {},
-        "batch": {"stage": task.stage, "seconds": 0.25, "key": ""},
+        "batch": {"stage": task.stage, "seconds": DOZE, "worker": str(os.getpid())},
     }
 
 
@@ -115,10 +117,12 @@ class Bench:
         again = sum(made[name] > watch.told[name][0] for name in made)
         twice = sum(len(times) > 1 for times in watch.told.values())
         tries = Counter(row["tries"] for row in found["jobs"])
+        each = sorted(Counter(row["worker"] for row in found["jobs"]).values())
         at_once = sum(row["seconds"] for row in found["jobs"]) / seconds
         print(
             f"  {title:<24} {seconds:7.1f} s  {found['done']} done, {found['failed']} failed, "
             f"{len(made)} on disk, {twice + again} twice, begun {dict(tries)}, "
+            f"{' + '.join(map(str, each))} by each worker, "
             f"{at_once:.2f} at once, {len(list(folder.rglob('.*')))} scraps",
             flush=True,
         )

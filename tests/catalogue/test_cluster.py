@@ -4,6 +4,7 @@ import signal
 import pytest
 
 from relieffab.catalogue import run
+from relieffab.catalogue.task import Task
 from relieffab.errors import InputError
 
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
@@ -36,22 +37,16 @@ def test_eight_jobs_and_a_worker_killed_midway(two, stones):
     assert [p.name for p in out.rglob(".*")] == []
 
 
-def test_a_job_that_kills_every_worker_fails_with_the_reason(two):
-    with distributed.config.set({"distributed.scheduler.allowed-failures": 0}):
-        two.scheduler.allowed_failures = 0
-        with Cluster(two.scheduler_address, _die) as engine:
-            assert engine.room == 4 << 30
-            future = engine.submit(_Named())
-            future.exception(timeout=60)
-            assert "died" in engine.settle(future)
+def test_a_job_that_kills_every_worker_fails_with_the_reason(two, tmp_path):
+    def die(_):
+        os._exit(1)
 
-
-class _Named:
-    name, token = "x", "y"
-
-
-def _die(_):
-    os._exit(1)
+    two.scheduler.allowed_failures = 0
+    with Cluster(two.scheduler_address, die) as engine:
+        assert engine.room == 4 << 30
+        future = engine.submit(Task("deadly", {}, "relief", "", tmp_path, "", 0))
+        future.exception(timeout=120)
+        assert "deadly" in engine.settle(future)
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense://here"])

@@ -19,8 +19,8 @@ class Scripted:
     def __init__(self, room=10, **script):
         self.room, self.script, self.seen, self.most = room, script, [], 0
 
-    def takes(self, task, running):
-        return sum(t.memory for t in running) + task.memory <= self.room
+    def free(self, running):
+        return self.room - sum(t.memory for t in running)
 
     def submit(self, task):
         self.seen.append((task.name, task.memory))

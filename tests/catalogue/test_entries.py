@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 
 from relieffab.catalogue.entries import entries
@@ -13,6 +15,7 @@ def test_a_flag_is_stronger_than_the_list_and_the_environment_too(monkeypatch):
     jobs = [job(depth="2mm", view="left", roll="3deg")]
     (entry,) = entries(jobs, {"depth": "1mm"}, {"RELIEFFAB_ROLL": "5deg"}, "relief")
     assert [entry.settings[name].value for name in ("depth", "view", "roll")] == [1, "left", 5]
+    assert entry.settings["model"].value == str(Path("a.ply").absolute())
     assert entry.settings["view"].origin == "list.csv, line 2"
 
 

@@ -14,7 +14,7 @@ def report(**more):
     return {
         "settings": {"size": "120x90mm", "solid": "panel"},
         "model": {"notes": []},
-        "batch": {"stage": "make", "seconds": 3.2, "key": ""},
+        "batch": {"stage": "make", "seconds": 3.2, "worker": "process 7 on host"},
         "relief": {"depth_mm": 3.0, "file": "relief.tiff"},
         **more,
     }
@@ -31,8 +31,9 @@ def test_a_row_tells_what_the_report_knows():
     made = row(Entry("a b", "m/a.ply", "Inv. 7"), WHOLE, DONE, 2)
     assert made == {
         "name": "a b", "model": "m/a.ply", "note": "Inv. 7", "status": "done", "tries": 2,
-        "stage": "make", "seconds": 3.2, "size_mm": [120, 90], "depth_mm": 3.0,
-        "cutting_s": 5400.0, "programs": 2, "carves": True, "findings": [], "notes": [],
+        "stage": "make", "seconds": 3.2, "worker": "process 7 on host", "size_mm": [120, 90],
+        "depth_mm": 3.0, "cutting_s": 5400.0, "programs": 2, "carves": True,
+        "findings": [], "notes": [],
         "files": {
             "report": "a%20b/report.html", "thumbnail": "a%20b/thumbnail.jpg",
             "picture": "a%20b/preview.png", "relief": "a%20b/relief.tiff",
@@ -42,7 +43,7 @@ def test_a_row_tells_what_the_report_knows():
 
 
 def test_layers_alone_have_no_relief_to_link():
-    alone = report(batch={"stage": "layers", "seconds": 1, "key": ""})
+    alone = report(batch={"stage": "layers", "seconds": 1, "worker": ""})
     del alone["relief"]
     made = row(Entry("a", "a.ply"), alone, DONE)
     assert made["depth_mm"] is None
@@ -60,7 +61,7 @@ def test_layers_alone_have_no_relief_to_link():
     ],
 )
 def test_a_verdict_in_few_words(more, told):
-    stage = {"stage": "make" if more else "relief", "seconds": 1, "key": ""}
+    stage = {"stage": "make" if more else "relief", "seconds": 1, "worker": ""}
     assert verdict(row(Entry("a", "a.ply"), report(batch=stage, **more), DONE)) == told
 
 

@@ -16,7 +16,7 @@ def names(*models):
         (["a/horse.ply", "a/horse.stl"], ["horse-ply", "horse-stl"]),
         (["a/horse.ply", "b/horse.ply"], ["a-horse", "b-horse"]),
         (["a/Horse.ply", "b/horse.ply"], ["a-Horse", "b-horse"]),
-        (["a/horse.ply", "a/horse.ply"], ["a-horse-ply", "a-horse-ply-2"]),
+        (["a/horse.ply", "a/horse.ply"], ["horse", "horse-2"]),
         (["index.html.ply", "batch.json.ply"], ["index.html-ply", "batch.json-ply"]),
         (["..ply", "-o.stl", "a?b*.obj", ".../x. .ply"], ["model", "o", "a-b-", "x"]),
     ],

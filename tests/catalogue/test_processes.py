@@ -48,6 +48,7 @@ def test_leaving_ends_workers_whatever_they_do():
         engine.submit(600)
         engine.submit(600)
         assert len(multiprocessing.active_children()) == 2
+        assert engine.free([]) == -1
     assert multiprocessing.active_children() == []
     assert time.monotonic() - begin < 300
 
@@ -64,9 +65,7 @@ def test_memory_says_how_many_run_at_once():
     def task(memory):
         return Task("", {}, "", "", None, "", memory)
 
-    engine = Processes(3, 10)
-    assert engine.takes(task(4), [task(6)])
-    assert not engine.takes(task(5), [task(6)])
+    assert Processes(3, 10).free([task(6)]) == 4
 
 
 def test_eight_jobs_and_a_worker_killed_midway(stones):

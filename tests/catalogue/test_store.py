@@ -18,6 +18,14 @@ def test_table_and_page_are_written_as_wholes(tmp_path):
     check_catalogue(tmp_path)
 
 
+def test_jobs_of_other_lists_are_told(tmp_path):
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "report.json").touch()
+    whole = summary(tmp_path, "make", [waiting(Entry("a", "a.ply"))], 0.5)
+    assert whole["others"] == ["b"]
+
+
 def test_a_folder_of_something_else_is_refused(tmp_path):
     check_catalogue(tmp_path / "new" / "deep")
     check_catalogue(tmp_path)

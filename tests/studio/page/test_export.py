@@ -1,4 +1,3 @@
-import numpy as np
 import tifffile
 
 from relieffab.cli.main import run

@@ -71,7 +71,9 @@ def test_whatever_is_pressed_the_last_asked_is_the_last_shown(carver):
     assert carver.page.inner_text("#messages") == ""
     assert carver.is_shown_what_it_asked()["depth_mm"] == 2.2
     after = carver.sees(HEAP), carver.sees(CARD)
-    print(f"{count} events: heap {heap:.1f} to {after[0]:.1f} MB, card {card} to {after[1]} objects")
+    print(
+        f"{count} events: heap {heap:.1f} to {after[0]:.1f} MB, card {card} to {after[1]} objects"
+    )
     assert after[0] < heap + 30
     assert after[1] <= card + 4
 
