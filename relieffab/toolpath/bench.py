@@ -94,7 +94,8 @@ class Bench:
         self, cutter: Cutter, stepdown: float, *, marked: Terrain, lines: Sequence[Floats]
     ) -> list[Pass]:
         """Cut a chisel's marks, each in one go along its line, into what is finished."""
-        work = replace(self._work(cutter, stepdown, _LEAST_MARK), relief=marked)
+        work = self._work(cutter, stepdown, _LEAST_MARK)
+        work = replace(work, ground=Ground(marked, cutter, SKIN))
         return self._cut(work, sample(lines, work.step))
 
     def _surface(self, cutter: Cutter, stepdown: float, least: float) -> list[Pass]:
