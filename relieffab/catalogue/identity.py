@@ -7,6 +7,7 @@ from pathlib import Path
 from relieffab import __version__, profiles
 from relieffab.errors import InputError
 from relieffab.job.folder import REPORT
+from relieffab.job.load import FILES
 from relieffab.job.report import Report, read_report
 from relieffab.job.settings import Chosen, Job, job_of
 
@@ -17,8 +18,8 @@ STAGES = ("layers", "relief", "make")
 def key_of(settings: Mapping[str, Chosen]) -> str:
     """Hash all that decides a job's result but the model's own bytes.
 
-    That is the version, the values of the settings, however they were typed, and what the
-    profiles hold that they name.
+    That is the version, the values of the settings, however they were typed, what the
+    profiles hold that they name, and what is in a mask.
 
     Returns
     -------
@@ -31,8 +32,9 @@ def key_of(settings: Mapping[str, Chosen]) -> str:
         If the settings do not go together, or name a profile that is not there.
     """
     job = job_of(settings)
-    values = [(name, choice.value) for name, choice in settings.items() if name != "model"]
-    told = repr((__version__, values, _profiles(job)))
+    values = [(name, choice.value) for name, choice in settings.items() if name not in FILES]
+    mask = _hash(Path(job.mask)) if job.mask else None
+    told = repr((__version__, values, _profiles(job), mask))
     return hashlib.sha256(told.encode()).hexdigest()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from relieffab.catalogue.lists import LISTS, Wanted, of_model, read_list, wants_jobs
 from relieffab.errors import InputError
 from relieffab.job.folder import REPORT
+from relieffab.layers.content import MESH, content_of
 from relieffab.layers.mesh import USUAL_UP
 
 
@@ -16,7 +17,8 @@ def wanted(sources: Sequence[str], output: Path) -> list[Wanted]:
     Parameters
     ----------
     sources : sequence of str
-        Folders (every model in them, however deep, and every job file), lists, job files, models.
+        Folders (every mesh in them, however deep, and every job file; pictures there may be
+        textures), lists, job files, models.
     output : Path
         Where results go: nothing in there is a model to carve.
 
@@ -43,7 +45,7 @@ def _of(path: Path, output: Path) -> list[Wanted]:
         raise InputError("there is no such folder or list", where=str(path))
     if suffix in LISTS:
         return read_list(path)
-    if suffix in USUAL_UP:
+    if suffix in USUAL_UP or content_of(path) != MESH:
         return [of_model(path)]
     raise InputError(
         "this is neither a folder nor a list nor a model",
@@ -54,7 +56,7 @@ def _of(path: Path, output: Path) -> list[Wanted]:
 
 
 def _of_folder(folder: Path, output: Path) -> list[Wanted]:
-    """Take every model of a folder but those that a job file in it speaks for."""
+    """Take every mesh of a folder but those that a job file in it speaks for."""
     files = list(_files(folder, output))
     jobs = [job for path in files if path.suffix.lower() == ".toml" for job in _of_toml(path)]
     spoken_for = {Path(job.model).resolve() for job in jobs if job.model}

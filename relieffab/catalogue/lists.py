@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError, suggest
-from relieffab.job.load import Source, job_source, read_toml
+from relieffab.job.load import Source, beside, job_source, read_toml
 from relieffab.job.settings import resolve
 from relieffab.job.table import TABLE
 
@@ -45,7 +45,7 @@ class Wanted:
 def read_list(path: Path) -> list[Wanted]:
     """Read the jobs of a list; a TOML file without [[job]] is the file of one job.
 
-    Models are looked for beside the list.
+    Models, and other files that jobs name, are looked for beside the list.
 
     Raises
     ------
@@ -157,13 +157,14 @@ def _tables(path: Path, values: dict[str, Any]) -> Iterator[Wanted]:
         yield replace(wanted, files=(*wanted.files, common))
 
 
-def _row(where: str, values: Mapping[str, Any], beside: Path) -> Wanted:
+def _row(where: str, values: Mapping[str, Any], folder: Path) -> Wanted:
     model, name, note = (str(values.get(key, "")) for key in BESIDE)
     rest = {key: value for key, value in values.items() if key not in BESIDE}
+    rest = beside(folder, rest)
     if not model:
         fault = InputError("the job names no model", expected="a model file", where=where)
         return Wanted(where, "", name=name, note=note, fault=str(fault))
-    path = beside / model
+    path = folder / model
     if path.suffix.lower() != ".toml":
         files: tuple[Source, ...] = ((where, {**rest, "model": str(path)}),)
         return Wanted(where, str(path), files, name, note)

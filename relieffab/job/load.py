@@ -12,6 +12,8 @@ from relieffab.job.settings import Chosen, resolve
 from relieffab.job.table import SETTINGS
 
 PREFIX = "RELIEFFAB_"
+FILES = ("model", "mask")
+"""Settings that name a file."""
 
 Source = tuple[str, Mapping[str, Any]]
 """Who says something, and what."""
@@ -46,12 +48,18 @@ def from_environment(environment: Mapping[str, str]) -> list[Source]:
 
 
 def job_source(job_file: Path) -> Source:
-    """Read a job file; a model or a mask named in it is looked for beside it."""
-    values = read_toml(job_file)
-    for name in ("model", "mask"):
-        if isinstance(values.get(name), str) and values[name]:
-            values[name] = str(job_file.parent / values[name])
-    return str(job_file), values
+    """Read a job file; files named in it are looked for beside it."""
+    return str(job_file), beside(job_file.parent, read_toml(job_file))
+
+
+def beside(folder: Path, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Look for the files that settings name in a folder."""
+    found = {
+        name: str(folder / values[name])
+        for name in FILES
+        if isinstance(values.get(name), str) and values[name]
+    }
+    return {**values, **found}
 
 
 def gather(
@@ -59,7 +67,7 @@ def gather(
 ) -> dict[str, Chosen]:
     """Resolve all settings: flag > RELIEFFAB_* > job file > user configuration > default.
 
-    A model or a mask named in a job file is looked for beside that file.
+    Files named in a job file are looked for beside it.
     """
     return layered(flags, environment, [job_source(job_file)] if job_file is not None else [])
 

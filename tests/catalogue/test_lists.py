@@ -100,3 +100,13 @@ def test_toml_about_something_else_asks_for_no_jobs(tmp_path):
     assert not wants_jobs(table(tmp_path, "[tool]\nx = 1", "other.toml"))
     assert wants_jobs(table(tmp_path, 'model = "a"', "job.toml"))
     assert wants_jobs(table(tmp_path, "= broken", "broken.toml"))
+
+
+def test_files_that_a_row_names_are_looked_for_beside_the_list(tmp_path):
+    (tmp_path / "list.csv").write_text("model,mask\nbust.png,figure.png\n")
+    (job,) = read_list(tmp_path / "list.csv")
+    (_, values), *_ = job.files
+    assert values == {
+        "model": str(tmp_path / "bust.png"),
+        "mask": str(tmp_path / "figure.png"),
+    }
