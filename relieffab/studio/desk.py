@@ -42,15 +42,16 @@ class Desk:
         self.exporter = Exporter(output, self.children, self.events.publish)
 
     def stop(self) -> None:
-        """Let go of all who wait: listeners, and whatever is being worked out."""
+        """Let go of all who wait: listeners, and whatever is being worked out anywhere."""
         self.events.close()
         self.worker.stop()
+        self.exporter.give_up()
+        self.children.close()
 
     def close(self) -> None:
         """End all work and processes, and take scratch files away."""
         self.stop()
         self.exporter.cancel()
-        self.children.close()
         self.worker.close()
         self.session.close()
 

@@ -1,6 +1,7 @@
 """Exporting: a job in a process of its own, told of, cancelled, whole or not at all."""
 
 import json
+import shlex
 import shutil
 import threading
 from collections.abc import Callable
@@ -87,12 +88,15 @@ class Exporter:
 
     def cancel(self) -> None:
         """Stop the job, if one is being made, and wait until nothing of it is left."""
-        if self._thread is None:
-            return
-        self._cancelled.set()
+        self.give_up()
         if (process := self._process) is not None:
             end(process)
-        self._thread.join(timeout=PATIENCE)
+        if self._thread is not None:
+            self._thread.join(timeout=PATIENCE)
+
+    def give_up(self) -> None:
+        """Take the job for cancelled, whatever ends it."""
+        self._cancelled.set()
 
     def file(self, name: str) -> Path:
         """Find a file of the finished job.
@@ -139,7 +143,7 @@ class Exporter:
                     "state": "done",
                     "folder": str(folder),
                     "files": _listed(folder),
-                    "command": f"relieffab make {folder / JOB_FILE} -o FOLDER",
+                    "command": f"relieffab make {shlex.quote(str(folder / JOB_FILE))} -o FOLDER",
                 }
             )
 
@@ -157,6 +161,8 @@ class Exporter:
     def _follow(self, arguments: list[str], folder: Path) -> None:
         """Run the job and pass on what it says."""
         fault: dict[str, str] | None = None
+        if self._cancelled.is_set():
+            raise CancelledError
         with self._children.child("relieffab.studio.making", arguments, folder) as process:
             self._process = process
             if self._cancelled.is_set():
