@@ -3,6 +3,7 @@
 import json
 import shlex
 import shutil
+import tempfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -163,23 +164,31 @@ class Exporter:
         fault: dict[str, str] | None = None
         if self._cancelled.is_set():
             raise CancelledError
-        with self._children.child("relieffab.studio.making", arguments, folder) as process:
+        with (
+            tempfile.TemporaryFile() as errors,
+            self._children.child(
+                "relieffab.studio.making", arguments, folder=folder, errors=errors
+            ) as process,
+        ):
             self._process = process
             if self._cancelled.is_set():
                 raise CancelledError
             for line in process.stdout or ():
+                if not line.endswith(b"\n"):
+                    break  # it was ended within a word
                 told = json.loads(line)
                 fault = told.get("error", fault)
                 if "stage" in told:
                     self._tell({"state": "running", **told})
-            status, said = process.wait(), (process.stderr.read() if process.stderr else b"")
+            status = process.wait()
+            errors.seek(0)
+            last = errors.read().decode(errors="replace").strip().splitlines()[-1:]
         self._process = None
         if self._cancelled.is_set():
             raise CancelledError
         if fault:
             raise InputError(fault.pop("message"), **fault)
         if status != 0:
-            last = said.decode(errors="replace").strip().splitlines()[-1:]
             raise InputError("the job ended before it was done", found="".join(last)[:300])
 
 
