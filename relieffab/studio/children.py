@@ -8,6 +8,7 @@ import sys
 import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import IO
 
 
 class Children:
@@ -25,10 +26,16 @@ class Children:
 
     @contextlib.contextmanager
     def child(
-        self, module: str, arguments: Sequence[str], folder: Path | None = None
+        self,
+        module: str,
+        arguments: Sequence[str],
+        *,
+        folder: Path | None = None,
+        errors: IO[bytes] | None = None,
     ) -> Iterator["subprocess.Popen[bytes]"]:
         """Run a module of ours as a process in a folder, the head of a group of its own.
 
+        Its stdout is a pipe, and so is its stderr if no file for it is given.
         Whatever the reason for leaving, process and group are gone then.
         """
         command = [sys.executable, "-m", module, *arguments]
@@ -40,7 +47,7 @@ class Children:
                 cwd=folder,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
+                stderr=errors or subprocess.PIPE,
                 start_new_session=True,
             )
             self._running.add(process)

@@ -2,7 +2,7 @@
 
 import functools
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -11,14 +11,13 @@ from relieffab.errors import InputError
 from relieffab.job import chain
 from relieffab.job.settings import Chosen
 from relieffab.progress import Progress
-from relieffab.studio import controls, looks, upload
+from relieffab.studio import controls, looks, upload, warm
 from relieffab.studio.children import Children
 from relieffab.studio.events import Events
 from relieffab.studio.exporting import MODEL, Exporter, State
 from relieffab.studio.model import Model
 from relieffab.studio.session import Ask, Session
-from relieffab.studio.warm import warm
-from relieffab.studio.worker import SupersededError, Worker
+from relieffab.studio.worker import SupersededError, Work, Worker
 
 
 class Desk:
@@ -43,27 +42,33 @@ class Desk:
         self.exporter = Exporter(output, self.children, self.events.publish)
 
     def stop(self) -> None:
-        """Let go of all who wait: listeners, and whatever is being worked out."""
+        """Let go of all who wait: listeners, and whatever is being worked out anywhere."""
         self.events.close()
         self.worker.stop()
+        self.exporter.give_up()
+        self.children.close()
 
     def close(self) -> None:
         """End all work and processes, and take scratch files away."""
         self.stop()
         self.exporter.cancel()
-        self.children.close()
         self.worker.close()
         self.session.close()
 
     def warm(self) -> None:
         """Compile what previews take, while nothing else is asked."""
         self.warming = True
-        done = self.worker.ask("warm", warm, report=self._reporter("warm"))
-        done.add_done_callback(self._warmed)
+        self._warm_on(iter(warm.steps()))
 
-    def _warmed(self, _done: "Future[None]") -> None:
-        self.warming = False
-        self.events.publish({"warm": None})
+    def _warm_on(self, steps: Iterator[Work], done: "Future[None] | None" = None) -> None:
+        """Take the next step; after a fault, or the last, no more."""
+        step = None if done and done.exception() else next(steps, None)
+        if step is None:
+            self.warming = False
+            self.events.publish({"warm": None})
+            return
+        taken = self.worker.ask("warm", step, report=self._reporter("warm"))
+        taken.add_done_callback(functools.partial(self._warm_on, steps))
 
     def open(self, file: Path, *, up: str = "") -> None:
         """Open a model's file; `up` is its axis that points up, guessed if not given.

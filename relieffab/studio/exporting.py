@@ -1,7 +1,9 @@
 """Exporting: a job in a process of its own, told of, cancelled, whole or not at all."""
 
 import json
+import shlex
 import shutil
+import tempfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -87,12 +89,15 @@ class Exporter:
 
     def cancel(self) -> None:
         """Stop the job, if one is being made, and wait until nothing of it is left."""
-        if self._thread is None:
-            return
-        self._cancelled.set()
+        self.give_up()
         if (process := self._process) is not None:
             end(process)
-        self._thread.join(timeout=PATIENCE)
+        if self._thread is not None:
+            self._thread.join(timeout=PATIENCE)
+
+    def give_up(self) -> None:
+        """Take the job for cancelled, whatever ends it."""
+        self._cancelled.set()
 
     def file(self, name: str) -> Path:
         """Find a file of the finished job.
@@ -139,7 +144,7 @@ class Exporter:
                     "state": "done",
                     "folder": str(folder),
                     "files": _listed(folder),
-                    "command": f"relieffab make {folder / JOB_FILE} -o FOLDER",
+                    "command": f"relieffab make {shlex.quote(str(folder / JOB_FILE))} -o FOLDER",
                 }
             )
 
@@ -157,23 +162,33 @@ class Exporter:
     def _follow(self, arguments: list[str], folder: Path) -> None:
         """Run the job and pass on what it says."""
         fault: dict[str, str] | None = None
-        with self._children.child("relieffab.studio.making", arguments, folder) as process:
+        if self._cancelled.is_set():
+            raise CancelledError
+        with (
+            tempfile.TemporaryFile() as errors,
+            self._children.child(
+                "relieffab.studio.making", arguments, folder=folder, errors=errors
+            ) as process,
+        ):
             self._process = process
             if self._cancelled.is_set():
                 raise CancelledError
             for line in process.stdout or ():
+                if not line.endswith(b"\n"):
+                    break  # it was ended within a word
                 told = json.loads(line)
                 fault = told.get("error", fault)
                 if "stage" in told:
                     self._tell({"state": "running", **told})
-            status, said = process.wait(), (process.stderr.read() if process.stderr else b"")
+            status = process.wait()
+            errors.seek(0)
+            last = errors.read().decode(errors="replace").strip().splitlines()[-1:]
         self._process = None
         if self._cancelled.is_set():
             raise CancelledError
         if fault:
             raise InputError(fault.pop("message"), **fault)
         if status != 0:
-            last = said.decode(errors="replace").strip().splitlines()[-1:]
             raise InputError("the job ended before it was done", found="".join(last)[:300])
 
 

@@ -105,6 +105,8 @@ def _server(config: "uvicorn.Config", desk: Desk) -> "uvicorn.Server":
     class Server(uvicorn.Server):
         def handle_exit(self, sig: int, frame: FrameType | None) -> None:
             desk.stop()
+            # What is cut short from now on is so by the person's own wish.
+            logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
             super().handle_exit(sig, frame)
 
     return Server(config)

@@ -1,6 +1,7 @@
 """Every route, as the page uses it and as it might be misused."""
 
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -198,14 +199,34 @@ def test_a_model_opened_later_wins(desk, opened, monkeypatch, tmp_path):
     assert desk.session.model is later
 
 
-def test_warming_is_told_until_it_is_done(desk, monkeypatch):
-    go = threading.Event()
-    monkeypatch.setattr("relieffab.studio.desk.warm", lambda progress: go.wait(10))
+def test_warming_goes_step_by_step_and_lets_others_in_between(desk, monkeypatch):
+    go, order = threading.Event(), []
+
+    def first(progress):
+        go.wait(10)
+        order.append("first")
+
+    steps = first, lambda progress: order.append("second")
+    monkeypatch.setattr("relieffab.studio.warm.steps", lambda: steps)
     desk.warm()
     assert desk.state()["warming"]
+    between = desk.worker.ask("preview", lambda progress: order.append("preview"))
     go.set()
-    desk.worker.ask("preview", lambda progress: None).result(10)
+    between.result(10)
+    for _ in range(100):
+        if not desk.state()["warming"]:
+            break
+        time.sleep(0.05)
+    assert order == ["first", "preview", "second"]
     assert not desk.state()["warming"]
+
+
+def test_warming_ends_at_a_fault(desk, monkeypatch):
+    steps = (lambda progress: 1 / 0), lambda progress: None
+    monkeypatch.setattr("relieffab.studio.warm.steps", lambda: steps)
+    desk.warm()
+    desk.worker.ask("panel", lambda progress: None).result(10)
+    assert not desk.warming
 
 
 def test_panel_toolpaths_and_moments(loaded):

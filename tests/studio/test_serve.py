@@ -1,11 +1,13 @@
 """The studio as a person starts and ends it."""
 
+import contextlib
 import os
 import signal
 import socket
 import subprocess
 import sys
 import threading
+import time
 
 import httpx
 import pytest
@@ -46,6 +48,18 @@ def listen(address, begun):
                 begun.set()
 
 
+def upload(address):
+    """Send a model that never comes to its end."""
+
+    def drops():
+        while True:
+            yield b"v 0 0 0\n"
+            time.sleep(0.05)
+
+    with contextlib.suppress(httpx.HTTPError):
+        httpx.post(address + "model", params={"name": "slow.obj"}, content=drops(), timeout=120)
+
+
 def test_it_serves_a_page_and_ctrl_c_ends_it_and_all_it_began(started, tmp_path):
     process, address, scratch = started
     assert address.startswith("http://127.0.0.1:")
@@ -55,13 +69,18 @@ def test_it_serves_a_page_and_ctrl_c_ends_it_and_all_it_began(started, tmp_path)
     assert httpx.get(address + "state", headers={"host": "evil.example"}).status_code == 421
     assert httpx.get(address[:-2] + "/state").status_code == 404
     begun = threading.Event()
-    listener = threading.Thread(target=listen, args=(address, begun))
-    listener.start()
+    others = [
+        threading.Thread(target=listen, args=(address, begun)),
+        threading.Thread(target=upload, args=(address,)),
+    ]
+    for other in others:
+        other.start()
     assert httpx.post(address + "export", json={}).status_code == 202
     assert begun.wait(120)
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)
-    listener.join(30)
+    for other in others:
+        other.join(30)
     assert process.returncode == 0, said
     assert "Traceback" not in said
     assert list(scratch.iterdir()) == []
