@@ -101,7 +101,8 @@ def test_the_certificate_holds_for_each_and_not_for_another_place(written):
 
 def test_the_page_says_what_to_do(written):
     _, facts = written
-    shown = page(facts)
+    relief = {**facts["relief"], "file": "relief.tiff", "depth_mm": 2.0}
+    shown = page({**facts, "version": "0", "relief": relief})
     for part in facts["programs"]:
         assert part["placing"] in shown and part["file"] in shown
     assert "Position 2 of 2: " in shown and "Seam of 1 and 2" in shown
