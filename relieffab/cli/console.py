@@ -10,6 +10,7 @@ from typing import Any
 from relieffab.cli.interrupt import heeding
 from relieffab.job.folder import SOLIDS
 from relieffab.job.settings import Chosen
+from relieffab.job.sheet.heed import heeds
 from relieffab.progress import Progress, silent
 
 
@@ -55,12 +56,7 @@ def print_json(report: Mapping[str, Any]) -> None:
 
 def notes(report: Mapping[str, Any]) -> list[str]:
     """Gather what the person should know of a job."""
-    found = list(report.get("model", {}).get("notes", []))
-    if report.get("relief", {}).get("converged") is False:
-        found.append("the relief was not solved to the end: it may look unfinished")
-    if report.get("stock", {}).get("note"):
-        found.append(f"no stock.step: {report['stock']['note']}")
-    return found + list(report.get("material", {}).get("notes", []))
+    return [heed.text for heed in heeds(report) if heed.kind != "finding"]
 
 
 def result(report: Mapping[str, Any], folder: Path, *, as_json: bool) -> int:

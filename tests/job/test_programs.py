@@ -7,10 +7,11 @@ import pytest
 
 from relieffab.errors import FindingsError, InputError
 from relieffab.grid import Grid
-from relieffab.job import chain, programs, proof, report
+from relieffab.job import chain, programs, proof
 from relieffab.job.certificate import certificate, check_certificate
 from relieffab.job.folder import PROGRAMS
 from relieffab.job.settings import default_job
+from relieffab.job.sheet.page import page
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
 
@@ -100,10 +101,11 @@ def test_the_certificate_holds_for_each_and_not_for_another_place(written):
 
 def test_the_page_says_what_to_do(written):
     _, facts = written
-    shown = report.page(facts)
+    relief = {**facts["relief"], "file": "relief.tiff", "depth_mm": 2.0}
+    shown = page({**facts, "version": "0", "relief": relief})
     for part in facts["programs"]:
         assert part["placing"] in shown and part["file"] in shown
-    assert "how the stock lies" in shown and "seam of positions 1 and 2" in shown
+    assert "Position 2 of 2: " in shown and "Seam of 1 and 2" in shown
 
 
 def test_what_is_refused_before_any_work():

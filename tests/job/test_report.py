@@ -1,8 +1,10 @@
+import numpy as np
 import pytest
 
 from relieffab.errors import InputError
 from relieffab.job.report import read_report, start_report, write_report
 from relieffab.job.settings import resolve
+from relieffab.picture import png8
 
 
 def test_a_report_comes_back_as_it_was_written(tmp_path):
@@ -29,3 +31,17 @@ def test_reports_of_others_are_refused(tmp_path, text, words):
     (tmp_path / "report.json").write_text(text)
     with pytest.raises(InputError, match=words):
         read_report(tmp_path)
+
+
+def test_the_page_shows_pictures_of_earlier_stages(tmp_path):
+    report = start_report(resolve([]))
+    report["model"] = {"name": "horse", "notes": []}
+    report["picture"] = {"file": "preview.png", "method": "hillshade"}
+    kept, new = tmp_path / "kept", tmp_path / "new"
+    for folder in (kept, new):
+        folder.mkdir()
+    (kept / "preview.png").write_bytes(png8(np.zeros((4, 4), np.uint8)))
+    write_report(report, new)
+    assert "data:image" not in (new / "report.html").read_text()
+    write_report(report, new, kept=kept)
+    assert "data:image" in (new / "report.html").read_text()

@@ -55,7 +55,8 @@ def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
         One page that needs nothing beside it.
     """
     job = job_of(resolve([("report.json", report["settings"])]))
-    stock, shown = stock_of(job), pictures(report, folders)
+    stock = Stock.of(report["slab"]) if "slab" in report else stock_of(job)
+    shown = pictures(report, folders)
     kept = shown.pop("plan", None)
     return _template().render(
         report=report,

@@ -4,7 +4,6 @@ import pytest
 from relieffab.errors import InputError
 from relieffab.job.show.carved import show_program
 from relieffab.job.show.lit import Lit
-from relieffab.job.show.maker import header, run_of
 
 LIT = Lit()
 SQUARE = "G21 G90\nG0 Z5\nG0 X5 Y5\nM3 S1000\nG1 Z-1 F300\nG1 X15\nG1 Y15\nG0 Z5\nM5\nM30\n"
@@ -19,15 +18,6 @@ def test_a_program_of_a_job_cuts_what_those_before_it_left(job):
     assert shown.image.shape[1] == 1024
     rough = show_program(job / "01-rough.nc", LIT)
     assert rough.facts["deepest_mm"] < shown.facts["deepest_mm"]
-
-
-def test_elsewhere_its_header_tells_what_it_was_made_for(job, tmp_path):
-    alone = tmp_path / "02-finish.nc"
-    alone.write_bytes((job / "02-finish.nc").read_bytes())
-    run = run_of(alone)
-    assert [cutter.name for cutter in run.cutters] == ["tapered-ball-1"]
-    assert (run.stock.width, run.stock.height, run.stock.thickness) == (40, 30, 12)
-    assert run.machine.name == "3018-prover"
 
 
 def test_programs_of_others_need_their_cutter(tmp_path):
@@ -49,9 +39,3 @@ def test_what_cuts_nothing_is_told(job, tmp_path):
         show_program(job / "00-outline.nc", LIT)
     with pytest.raises(InputError, match="no such program"):
         show_program(tmp_path / "no.nc", LIT)
-
-
-def test_headers():
-    text = "(cutter T1: a, flat)\n(cutter T2: b, ball)\n(plain words)\nG21\n(cutter: c)\n"
-    assert header(text) == {"cutter T1": "a, flat", "cutter T2": "b, ball"}
-    assert header("; machine: mine, LinuxCNC\n") == {"machine": "mine, LinuxCNC"}
