@@ -34,8 +34,8 @@ STRIP = 5
 
 def opaque(picture: Picture) -> Bools:
     """Pixels that show something: opaque, and numbers; (rows, cols)."""
-    seen: Bools = np.isfinite(picture.values).all(axis=2)
-    return seen if picture.alpha is None else np.asarray(seen & (picture.alpha > 0.5), bool)
+    seen = np.asarray(np.isfinite(picture.values).all(axis=2), bool)
+    return seen if picture.alpha is None else seen & (picture.alpha > 0.5)
 
 
 def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:
