@@ -24,11 +24,17 @@ SPREAD = 0.25
 """Of the picture's own spread of colours: a border more varied is no background."""
 COARSE = 400
 """Pixels at most each way for segmentation."""
+LOSSY = ("JPEG", "WEBP")
+"""Formats in which no colour stays exactly what it was."""
+HOLE = 0.005
+"""Of the figure: smaller spots of the background's colour inside it are shadows."""
+STRIP = 5
+"""Half the width, pixels of that copy, of what may be background's tone inside a figure."""
 
 
 def opaque(picture: Picture) -> Bools:
     """Pixels that show something: opaque, and numbers; (rows, cols)."""
-    seen = np.asarray(np.isfinite(picture.values).all(axis=2))
+    seen = np.asarray(np.isfinite(picture.values).all(axis=2), bool)
     return seen if picture.alpha is None else seen & (picture.alpha > 0.5)
 
 
@@ -75,9 +81,9 @@ def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tu
 
 
 def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
-    mask = _background(picture)
+    mask = None if picture.format in LOSSY else _background(picture)
     if mask is not None:
-        return mask, BACKGROUND
+        return (mask if even else _but_shadows(mask)), BACKGROUND
     mask = None if even else _segmented(picture)
     return (opaque(picture), WHOLE) if mask is None else (mask, SEGMENTED)
 
@@ -111,6 +117,15 @@ def _background(picture: Picture) -> Bools | None:
     return mask if LEAST < mask.mean() < 1.0 - LEAST else None
 
 
+def _but_shadows(mask: Bools) -> Bools:
+    """Fill what has the background's colour within the figure, unless it is as large as a hole."""
+    parts, _ = ndimage.label(~mask)
+    sizes = np.bincount(parts.ravel())
+    shadow = sizes < HOLE * mask.sum()
+    shadow[np.unique(border(parts))] = False
+    return mask | np.asarray(shadow[parts] & ~mask, bool)
+
+
 def _segmented(picture: Picture) -> Bools | None:
     """Part a photograph's figure from its background by random walks (Grady 2006).
 
@@ -132,22 +147,34 @@ def _segmented(picture: Picture) -> Bools | None:
     if noise > SPREAD * most:
         return None
     seeds = np.zeros(shape, np.int32)
-    seeds[off < 1.2 * noise + 0.02 * most] = 1
-    seeds[[0, -1]] = 1
-    seeds[:, [0, -1]] = 1
+    seeds[_beyond(off < 1.2 * noise + 0.02 * most)] = 1
     inner = ndimage.binary_erosion(off > 2.5 * noise + 0.12 * most, iterations=2)
     seeds[inner] = 2
     if not inner.any():
         return None
     label = random_walker(
-        small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-3, prob_tol=1e-2
+        small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-4, prob_tol=5e-2
     )
-    figure = ndimage.binary_fill_holes(label == 2)
+    figure = _but_shadows(label == 2)
     share = figure.mean()
     if not 0.02 < share < 0.95:
         return None
     back = resize(figure.astype(float), picture.shape, order=1) > 0.5
     return np.asarray(back, bool)
+
+
+def _beyond(alike: Bools) -> Bools:
+    """Find what is like the border and joined to it, or as large as a hole, but no strip."""
+    alike = alike.copy()
+    alike[[0, -1]] = alike[:, [0, -1]] = True
+    broad = ndimage.binary_opening(np.pad(alike, STRIP, mode="edge"), iterations=STRIP)
+    parts, _ = ndimage.label(broad[STRIP:-STRIP, STRIP:-STRIP])
+    broad_enough = np.bincount(parts.ravel()) > HOLE * parts.size
+    broad_enough[np.unique(border(parts))] = True
+    broad_enough[0] = False
+    found = broad_enough[parts]
+    found[[0, -1]] = found[:, [0, -1]] = True
+    return np.asarray(found, bool)
 
 
 def _without_specks(mask: Bools) -> Bools:

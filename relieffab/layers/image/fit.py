@@ -15,6 +15,9 @@ Bools = NDArray[np.bool_]
 SAME = 1.5
 """Pixels over the whole figure by which the picture's own may miss the panel's and still be
 taken as they are: sampling anew would blur more than it set right."""
+ENLARGED = 0.9
+"""Pixels of the picture to one of the panel below which it is enlarged: by cubic B-splines, for
+between straight lines every pixel would show as a facet, and splines through them would ring."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,10 @@ class Fit:
             indexing="ij",
         )
         calm = ndimage.gaussian_filter(values, sigma, mode="constant") if sigma else values
-        return np.asarray(ndimage.map_coordinates(calm, at, order=1, mode="constant"))
+        order = 3 if self.ratio < ENLARGED else 1
+        return np.asarray(
+            ndimage.map_coordinates(calm, at, order=order, mode="constant", prefilter=False)
+        )
 
     def mask(self, mask: Bools) -> Bools:
         """Take a mask at the panel's pixels."""

@@ -10,6 +10,8 @@ from relieffab.layers.image.picture import Picture
 
 UNIT = 0.1
 """How far the length of a normal may be off in a normal map of 8 bits."""
+TONE = 0.12
+"""Share of the range of greys that is one tone of a drawing."""
 TWO_TONED = 0.9
 """Share of a drawing's pixels that are nearly its darkest or its lightest."""
 
@@ -41,9 +43,9 @@ def check_shown(picture: Picture) -> None:
 def kind_of(picture: Picture) -> str:
     """Guess what a picture shows.
 
-    Colours that are unit vectors are normals; one channel of floating point or 16
-    bits is a depth map; two tones with nothing between are a drawing; what is left
-    is a photograph.  A grey picture of 8 bits may be either: see `--image`.
+    Colours that are unit vectors are normals; two tones with hardly anything between
+    are a drawing; one channel of floating point or 16 bits is a depth map; what is
+    left is a photograph.  A grey picture of 8 bits may be either: see `--image`.
 
     Returns
     -------
@@ -53,12 +55,15 @@ def kind_of(picture: Picture) -> str:
     values = picture.values[opaque(picture)]
     if picture.coloured:
         return NORMAL if _unit_vectors(values, picture.bits) else PHOTO
-    if picture.bits is None or picture.bits > 8:
+    if picture.bits is None:
         return DEPTH
     grey = picture.grey[opaque(picture)]
     low, high = np.percentile(grey, (0.1, 99.9))
-    near = np.minimum(grey - low, high - grey) < 0.12 * max(high - low, 1e-9)
-    return DRAWING if near.mean() >= TWO_TONED else PHOTO
+    tone = TONE * max(high - low, 1e-9)
+    toned = (np.minimum(grey - low, high - grey) < tone).mean() >= TWO_TONED
+    if picture.bits > 8:  # a map's figure may be two-toned on black, but hardly on white
+        return DRAWING if toned and np.median(grey) > high - tone else DEPTH
+    return DRAWING if toned else PHOTO
 
 
 def _unit_vectors(values: NDArray[np.float64], bits: int | None) -> bool:

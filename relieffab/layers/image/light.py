@@ -41,70 +41,82 @@ class Light:
 
 
 ROUND = 0.3
-"""Fit below which the figure is no such body, and its rim alone is asked."""
+"""Fit below which the figure is no such body."""
 RIM = 3
 """Pixels along the outline that bend away from the viewer on any figure."""
+LOWEST = 0.15
+"""Sine of the least elevation of a light."""
 FRONT = np.array([0.0, 0.0, 1.0])
 
 
 def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
-    """Fit grey = ambient + strength max(0, n.l) by least squares on lit pixels.
+    """Find the light under which a figure shows its brightness.
 
-    Where that explains little, the figure being rather flat, its rim tells the
-    direction, since it bends away outward (Nillius and Eklundh 2001), and the
-    median brightness, of what faces the viewer, the elevation.
+    Its direction across the picture is told by the figure's rim, which bends away
+    outward whatever the figure is (Nillius and Eklundh 2001); its elevation by the
+    least squares fit of grey = ambient + strength max(0, n.l) to a body that is
+    about the one shown, or, where that explains little because the figure is rather
+    flat, by the median brightness: that of what faces the viewer.
 
     Parameters
     ----------
     grey : (rows, cols) ndarray
         Brightness, 0 to about 1.
     normals : (rows, cols, 3) ndarray
-        Of a body that is about the one shown.
+        Of that body.
     mask : (rows, cols) ndarray of bool
+        The figure.
 
     Returns
     -------
     Light
         From the front where the brightness follows no light.
     """
-    n, g = normals[mask], grey[mask]
-    lit = g > DULL
-    way, strength, ambient = FRONT, max(float(np.percentile(g, 99)), 1e-6), 0.0
+    brightest = max(float(np.percentile(grey[mask], 99.5)), 1e-6)
+    way, ambient, fit = _of_body(grey[mask], normals[mask])
+    tilt = _of_rim(grey, mask)
+    size = float(np.hypot(*tilt))
+    if fit < ROUND:
+        level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
+        way = np.array([0.0, np.sqrt(1.0 - level**2), level]) if size > DULL * brightest else FRONT
+        ambient = 0.0
+    if size > DULL * brightest:
+        way = np.append(tilt / size * np.hypot(way[0], way[1]), way[2])
+    # The scale is the picture's own: what faces the light is nearly its brightest.
+    return Light(way, max(brightest - ambient, 1e-6), ambient, fit)
+
+
+def _of_body(grey: Floats, normals: Floats) -> tuple[Floats, float, float]:
+    """Fit one light and an even one to a body's lit pixels: way, ambient, and how well."""
+    lit = grey > DULL
+    way, strength, ambient = FRONT, 1.0, 0.0
     for _ in range(ROUNDS):
         if lit.sum() < 16:
             break
-        table = np.column_stack([n[lit], np.ones(int(lit.sum()))])
-        found = np.linalg.lstsq(table, g[lit], rcond=None)[0]
-        size = float(np.linalg.norm(found[:3]))
-        if size < 1e-6:
+        table = np.column_stack([normals[lit], np.ones(int(lit.sum()))])
+        found = np.linalg.lstsq(table, grey[lit], rcond=None)[0]
+        strength = float(np.linalg.norm(found[:3]))
+        if strength < 1e-6:
             break
         # No light is seen from behind: the figure would be dark.
-        way = found[:3] / size
-        way = way if way[2] > 0.15 else np.append(way[:2], 0.15)
-        way, strength = way / np.linalg.norm(way), size
-        ambient = float(np.clip(found[3], 0.0, 0.5 * g.max()))
-        lit = (n @ way > 0.05) & (g > DULL)
-    shown = ambient + strength * np.maximum(n @ way, 0.0)
-    spread = float(((g - g.mean()) ** 2).sum())
-    # The scale is the picture's own: what faces the light is nearly its brightest.
-    strength = max(float(np.percentile(g, 99.5)) - ambient, 1e-6)
-    left = float(((g - shown) ** 2).sum())
-    fit = max(0.0, 1.0 - left / max(spread, 1e-12))
-    return Light(way, strength, ambient, fit) if fit >= ROUND else _of_rim(grey, mask, fit)
+        way = np.append(found[:2], max(found[2], LOWEST * strength))
+        way = way / np.linalg.norm(way)
+        ambient = float(np.clip(found[3], 0.0, 0.5 * grey.max()))
+        lit = (normals @ way > 0.05) & (grey > DULL)
+    shown = ambient + strength * np.maximum(normals @ way, 0.0)
+    spread = float(((grey - grey.mean()) ** 2).sum())
+    left = float(((grey - shown) ** 2).sum())
+    return way, ambient, max(0.0, 1.0 - left / max(spread, 1e-12))
 
 
-def _of_rim(grey: Floats, mask: Bools, fit: float) -> Light:
+def _of_rim(grey: Floats, mask: Bools) -> Floats:
+    """Tell how the brightness of the rim goes with the way it faces, X and Y."""
     inward = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
     down, right = np.gradient(ndimage.gaussian_filter(inward, 1.0))
-    rim = mask & (inward <= RIM)
-    brightest = max(float(np.percentile(grey[mask], 99.5)), 1e-6)
-    table = np.column_stack([-right[rim], down[rim], np.ones(int(rim.sum()))])
-    across = np.linalg.norm(table[:, :2], axis=1, keepdims=True)
-    table[:, :2] /= np.maximum(across, 1e-9)
-    tilt = np.linalg.lstsq(table, grey[rim], rcond=None)[0][:2]
-    size = float(np.hypot(*tilt))
-    level = float(np.clip(np.median(grey[mask]) / brightest, 0.15, 1.0))
-    if size < DULL * brightest:
-        return Light(FRONT, brightest, 0.0, fit)
-    way = np.append(np.sqrt(1.0 - level**2) * tilt / size, level)
-    return Light(way, brightest, 0.0, fit)
+    rim = mask & (inward <= RIM) & (grey > DULL * grey[mask].max())
+    outward = np.column_stack([-right[rim], down[rim]])
+    if len(outward) < 3:
+        return np.zeros(2)
+    outward /= np.maximum(np.linalg.norm(outward, axis=1, keepdims=True), 1e-9)
+    table = np.column_stack([outward, np.ones(len(outward))])
+    return np.asarray(np.linalg.lstsq(table, grey[rim], rcond=None)[0][:2])

@@ -28,10 +28,14 @@ ROUNDS = 20
 """Of cones and surfaces in turn while it is."""
 FINER = 3
 """The same, on the panel's own pixels."""
-LENGTH = 0.15
+LENGTH = 0.4
 """Of the figure's longer side: wider forms follow the reference."""
+THICK = 0.6
+"""Of a round body's thickness: few figures are as thick as they are wide."""
 FLAT = 0.1
-"""Of the body's own thickness, where the shading says that it is no such body."""
+"""The same, where the shading says that the figure is no such body."""
+DETAIL = 0.1
+"""Of that length: wider forms are settled when the panel's own pixels are come to."""
 ROUGHLY = 3e-3
 """Tolerance of each integration: the next one sets right what it leaves."""
 CALM = 1.0
@@ -118,7 +122,7 @@ def shape_of(
         mm, the nearest point at 0; 0 outside the figure.
     normals : (rows, cols, 3) ndarray
     """
-    body = inflate(mask, pitch)
+    body = THICK * inflate(mask, pitch)
     shrink = max(1.0, max(mask.shape) / WORKING)
     shape = tuple(max(8, round(n / shrink)) for n in mask.shape)
     step = pitch * mask.shape[0] / shape[0]
@@ -130,7 +134,7 @@ def shape_of(
     normals = normals_of(slopes_of(reference, there, step), there)
     light = find_light(small, normals, there)
     if light.fit < ROUND:
-        body, reference = FLAT * body, FLAT * reference
+        body, reference = FLAT / THICK * body, FLAT / THICK * reference
         normals = normals_of(slopes_of(reference, there, step), there)
     sides = [np.ptp(np.flatnonzero(mask.any(axis=axis))) + 1 for axis in (0, 1)]
     length = LENGTH * pitch * float(max(sides))
@@ -141,7 +145,7 @@ def shape_of(
     start = resize(normals, (*mask.shape, 3), order=1)
     start /= np.maximum(np.linalg.norm(start, axis=2, keepdims=True), 1e-9)
     depth, normals = _refine(
-        start, light.cosine(grey), light, mask, pitch, wide, 0.3 * length, FINER
+        start, light.cosine(grey), light, mask, pitch, wide, DETAIL * length, FINER
     )
     facts |= {"light": [round(float(v), 3) for v in light.way], "light_fit": round(light.fit, 3)}
     return np.where(mask, depth - depth[mask].max(), 0.0), normals

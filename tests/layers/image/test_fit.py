@@ -50,6 +50,16 @@ def test_a_plane_stays_one_at_any_scale():
     assert found[row, col] == pytest.approx(value, abs=1e-6)
 
 
+def test_an_enlarged_picture_shows_no_facets():
+    i, j = np.indices((60, 60)) - 29.5
+    mask = disc((60, 60), 25)
+    fit = fit_on(mask, GRID, (40.0, 30.0), margin=3.0)
+    found = fit.field(i**2 + j**2, mask)
+    inner = fit.mask(disc((60, 60), 20))
+    bend = np.diff(found, 2, axis=0)[inner[1:-1]] / fit.ratio**2
+    np.testing.assert_allclose(bend, 2.0, rtol=1e-6)
+
+
 def test_values_outside_the_mask_take_no_part():
     mask = disc((300, 300), 140)
     values = np.where(mask, 7.0, np.nan)

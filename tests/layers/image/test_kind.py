@@ -10,7 +10,8 @@ def test_kinds_are_told_by_values(stone, depth_map, normal_map, make_picture):
     assert kind_of(depth_map(stone, None)[0]) == "depth"
     assert kind_of(normal_map(stone, 8)) == "normal"
     assert kind_of(make_picture(stone.normals, bits=None)) == "normal"
-    assert kind_of(make_picture(1 - stone.lines)) == "drawing"
+    for bits in (8, 16):
+        assert kind_of(make_picture(1 - stone.lines, bits=bits)) == "drawing"
     grey = np.repeat(stone.shading[0][..., None], 3, axis=2) * [1.0, 0.9, 0.7]
     assert kind_of(make_picture(grey)) == "photo"
     assert kind_of(make_picture(grey[..., 0])) == "photo"
