@@ -47,7 +47,7 @@ def test_the_report_tells_asked_and_measured(made):
         found = part["measured"][place]
         assert found["spacing_mm"] == pytest.approx(part["spacing_mm"], rel=0.1)
         assert found["depth_mm"] == pytest.approx(part["depth_mm"], rel=0.1)
-        assert found["within_tolerance"] > 0.95
+        assert found["within_tolerance"] > 0.99 and found["left_p99_mm"] < 0.05
     assert report["relief"]["depth_mm"] == 1.5
 
 

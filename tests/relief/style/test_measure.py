@@ -47,5 +47,5 @@ def test_without_marks_there_is_nothing_to_measure():
     style = Style("gouge", ground="pecked")
     found = measure(relief, Marks(style.tool, relief, ()), style)
     for one in found.values():
-        assert np.isnan([one.spacing, one.depth, one.within]).all() and one.area == 0
+        assert np.isnan([one.spacing, one.depth, one.within, one.left]).all() and one.area == 0
     assert np.isnan(_pecks(np.zeros((9, 9)), 3.0)).all()
