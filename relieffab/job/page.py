@@ -118,6 +118,30 @@ def _solid(part: Mapping[str, Any]) -> str:
     return _table(["measure", "value"], rows) + found
 
 
+def _marks(part: Mapping[str, Any]) -> str:
+    """Tell the marks asked for, and those measured."""
+    rows = [["asked", _number(part["spacing_mm"]), _number(part["depth_mm"]), "", ""]]
+    for place, found in part["measured"].items():
+        share = found["within_tolerance"]
+        rows.append(
+            [
+                f"on the {place}",
+                _number(found["spacing_mm"]),
+                _number(found["depth_mm"]),
+                "none" if share is None else f"{share:.1%} within {found['tolerance_mm']:g} mm",
+                _number(found["left_p99_mm"]),
+            ]
+        )
+    head = ["marks", "spacing, mm", "depth, mm", "as their cutter leaves them", "99 % within, mm"]
+    return f"<p>{part['strokes']:,} strokes by {escape(part['cutter']['name'])}.</p>" + _table(
+        head, rows
+    )
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else f"{value:.3g}"
+
+
 def page(report: Mapping[str, Any]) -> str:
     """Lay a report out as HTML."""
     name = report.get("model", {}).get("name", "relief")
@@ -133,6 +157,8 @@ def page(report: Mapping[str, Any]) -> str:
             _placings(report),
             _programs(report["programs"]),
         ]
+    if "style" in report:
+        parts += ["<h2>Marks</h2>", _marks(report["style"])]
     for solid in SOLIDS:
         if solid in report:
             parts += [f"<h2>{solid.capitalize()}</h2>", _solid(report[solid])]
