@@ -6,11 +6,19 @@ import numpy as np
 import pytest
 
 from relieffab.errors import InputError
+from relieffab.grid import Grid
 from relieffab.job import chain, run, styles
+from relieffab.job.drawn import read_strokes
 from relieffab.job.load import gather
 from relieffab.job.settings import default_job
+from relieffab.job.stocks import machine_of, stock_of
+from relieffab.layers.model import Layers
+from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.store import read_relief
 from relieffab.subject.shapes import sphere
+from relieffab.template.model import make_template
+from relieffab.template.svg import to_svg
+from relieffab.toolpath.check import check
 
 SETTINGS = {
     "size": "32x24mm",
@@ -81,6 +89,34 @@ def test_without_the_marks_program_the_marks_are_missing(made):
     assert (tips[:, 2] > relief.height_at(*tips[:, :2].T) - 1e-6).all()
 
 
+def test_a_template_shows_the_form_without_its_marks(made):
+    folder, report = made
+    job = default_job(**SETTINGS)
+    run.add_template(gather(SETTINGS, None, {}), folder)
+    smooth, strokes = styles.read_marks(folder, job).smooth, read_strokes(folder)
+    name = report["model"]["name"]
+    wanted = make_template(smooth, strokes, stock_of(job), line_width=job.line_width, name=name)
+    assert (folder / "template.svg").read_text() == to_svg(wanted)
+
+
+def test_pecks_leave_room_for_every_cutter_beside_a_raised_frame():
+    job = default_job(
+        size="24x18mm", ground="pecked", frame="2mm", frame_height="1mm", rough="flat-2"
+    )
+    grid = Grid.on_panel(job.size, (240, 180))
+    mask, none = np.zeros(grid.shape, bool), np.zeros(grid.shape)
+    mask[80:100, 110:130] = True
+    smooth = Relief(grid, np.where(nodes_of(mask), -1.0, 0.0), mask, 3.0)
+    up = np.stack([none, none, none + 1], axis=2)
+    layers = Layers(grid, none, up, mask, up[0, :1], none[None], none)
+    relief, marks, part = styles.mark(smooth, layers, job)
+    x, y = relief.grid.to_xy(*np.nonzero(relief.heights < -1e-6))
+    # The widest of the cutters has a radius of 1.5875 mm, and the border is 2.5 mm wide.
+    assert min(x.min(), y.min()) >= 2 + 2.5 - 2 * relief.grid.pitch
+    check(relief, machine_of(job), chain.all_cutters_of(job), stock_of(job), 0.1)
+    assert part["ground"] == "pecked" and len(marks.lines) > 20
+
+
 def test_marks_come_back_from_their_files(made, tmp_path):
     folder, report = made
     job = default_job(**SETTINGS)
@@ -110,7 +146,9 @@ def test_a_job_without_a_style_is_as_it_was():
     ("wrong", "says"),
     [
         ({"mark_depth": "1mm"}, "too much of the relief's depth"),
-        ({"resolution": "64x48"}, "finer than the relief's pixels"),
+        ({"mark_depth": "2mm"}, "too much of the relief's depth"),
+        ({"mark_spacing": "0.01mm"}, "closer together"),
+        ({"mark_depth": "0.01mm"}, "finer than the relief's pixels"),
         ({"mark_cutter": "ball-9"}, "ball-9"),
         ({"mark_cutter": "vee-90", "depth": "7mm"}, "vee-90 is too short"),
     ],

@@ -17,14 +17,14 @@ from relieffab.relief.style.chisels import CHISELS
 from relieffab.relief.style.make import BESIDE, BORDER, carve_marks, clear_of_lines
 from relieffab.relief.style.measure import measure
 from relieffab.relief.style.model import Style, mark_width
-from tests.relief.style.conftest import DEPTH, level_ground
 
 LIGHT = np.array([[0.0, 0.0, 1.0]])
 
 
 def carved(ground, style):
-    relief, marks = carve_marks(ground.smooth, ground.layers, style, depth=DEPTH)
-    assert (relief.heights >= -DEPTH).all() and (relief.heights <= ground.smooth.heights).all()
+    smooth = ground.smooth
+    relief, marks = carve_marks(smooth, ground.layers, style, depth=smooth.depth)
+    assert (relief.heights >= -smooth.depth).all() and (relief.heights <= smooth.heights).all()
     return relief, marks
 
 
@@ -67,7 +67,7 @@ def test_pecks_are_round_whole_and_clear_of_figure_and_border(level):
     small[60:120, 90:150] = True
     heights = np.where(nodes_of(small), -1.0, 0.0)
     smooth = replace(level.smooth, heights=heights, mask=small)
-    relief, marks = carve_marks(smooth, level.layers, style, depth=DEPTH)
+    relief, marks = carve_marks(smooth, level.layers, style, depth=3.0)
     found = measure(relief, marks, style)["ground"]
     assert found.spacing == pytest.approx(style.chisel.spacing, rel=0.1)
     assert found.depth == pytest.approx(style.chisel.depth, rel=0.1)
@@ -80,15 +80,12 @@ def test_pecks_are_round_whole_and_clear_of_figure_and_border(level):
     assert not cut.any()
 
 
-def test_marks_keep_off_drawn_lines_and_walls():
-    lines = np.zeros((180, 240))
-    lines[87:93, 25:215] = 1.0
-    ground = level_ground(lines)
+def test_marks_keep_off_drawn_lines_and_walls(lined):
     for name in CHISELS:
         style = replace(Style(name), direction=80.0)
-        relief, _ = carved(ground, style)
-        cut = ground.smooth.heights - relief.heights
-        clear = clear_of_lines(ground.smooth, ground.layers)
+        relief, _ = carved(lined, style)
+        cut = lined.smooth.heights - relief.heights
+        clear = clear_of_lines(lined.smooth, lined.layers)
         assert cut[88:93, 30:210].max() == 0
         # The wall falls 1 mm in a pixel: this is a sixth of one, sideways.
         assert cut[~clear].max() < 0.16
@@ -124,7 +121,7 @@ def test_carving_again_gives_the_same_marks(ball):
 
 def test_marks_that_the_pixels_cannot_show_are_refused(level):
     with pytest.raises(InputError, match="finer than the relief's pixels"):
-        carve_marks(level.smooth, level.layers, Style("gouge", depth=0.001), depth=DEPTH)
+        carve_marks(level.smooth, level.layers, Style("gouge", depth=0.001), depth=3.0)
 
 
 def test_strokes_go_where_the_cutter_finds_room(level):

@@ -58,10 +58,12 @@ def test_what_is_no_style(wrong, says):
 
 
 def test_marks_too_deep_or_too_fine_are_refused():
-    style = Style("gouge", depth=0.3)
+    style = Style("gouge", spacing=2.0, depth=0.3)
     style.check(0.6, 0.1)
     with pytest.raises(InputError, match="too much of the relief's depth"):
         style.check(0.59, 0.1)
+    with pytest.raises(InputError, match="closer together"):
+        Style("gouge", spacing=0.24).check(3.0, 0.1)
     width = mark_width(style.tool, 0.3)
     style.check(3.0, 0.99 * width / FINEST)
     with pytest.raises(InputError, match="finer than the relief's pixels"):
