@@ -78,6 +78,8 @@ def _lines(report: Mapping[str, Any], folder: Path) -> None:
         relief = report["relief"]
         size = f"{relief['cols'] - 1} x {relief['rows'] - 1} pixels of {relief['pitch_mm']:.4f} mm"
         print(f"relief   {folder / relief['file']}  {size}, {relief['depth_mm']:g} mm deep")
+    for place, found in report.get("style", {}).get("measured", {}).items():
+        _marks(place, found)
     for name in SOLIDS:
         if name in report:
             _solid(name, report[name], folder)
@@ -90,6 +92,17 @@ def _lines(report: Mapping[str, Any], folder: Path) -> None:
         picture = report["picture"]
         print(f"picture  {folder / picture['file']}  ({picture['method']})")
     print(f"report   {folder / 'report.json'}, {folder / 'report.html'}")
+
+
+def _marks(place: str, found: Mapping[str, Any]) -> None:
+    if found["depth_mm"] is None:
+        print(f"marks    none on the {place}: there is no room for one")
+        return
+    apart = f"{found['spacing_mm']:.2f} mm apart, " if found["spacing_mm"] else ""
+    print(
+        f"marks    of the {place}: {apart}{found['depth_mm']:.2f} mm deep; their cutter leaves "
+        f"at most {found['tolerance_mm']:g} mm on {found['within_tolerance']:.1%} of them"
+    )
 
 
 def _solid(name: str, part: Mapping[str, Any], folder: Path) -> None:

@@ -127,9 +127,9 @@ def check(job: Job) -> None:
     InputError
         If a profile is unknown, or machine, cutters, stock and depth do not fit.
     """
+    styles.check(job)
     carving_of(job)
     solids.check(job)
-    styles.check(job)
     cutters = all_cutters_of(job)
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)

@@ -200,9 +200,9 @@ def make_relief(
     settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
 ) -> Report:
     """Solve for the relief of a model into a folder."""
-    chain.carving_of(job_of(settings))
     styles.check(job_of(settings))
     round_of(job_of(settings))
+    chain.carving_of(job_of(settings))
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
@@ -246,9 +246,13 @@ def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = sile
 
 
 def add_template(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
-    """Draw the template of a relief that lies in a folder, beside it."""
+    """Draw the template of a relief that lies in a folder, beside it.
+
+    Its contours are those of the form, without a chisel's marks.
+    """
     job, report = job_of(settings), read_report(folder)
-    relief, strokes = read_relief(folder / "relief.tiff"), drawn.read_strokes(folder)
+    marks, strokes = styles.read_marks(folder, job), drawn.read_strokes(folder)
+    relief = marks.smooth if marks else read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, TEMPLATE) as scratch,

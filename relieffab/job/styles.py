@@ -62,6 +62,7 @@ def mark(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks, Part]
             "depth_mm": _number(found.depth),
             "area_mm2": _number(found.area),
             "within_tolerance": _number(found.within),
+            "left_p99_mm": _number(found.left),
             "tolerance_mm": found.tolerance,
         }
         for place, found in measure(relief, marks, style).items()

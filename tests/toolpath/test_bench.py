@@ -62,6 +62,9 @@ def test_no_pass_gouges_at_four_times_the_resolution(name, heights, angle, stepo
         *bench.rough(cutter, 0.7),
         *bench.finish(cutter, 0.7),
         *bench.lines(cutter, 0.7, strokes=[line]),
+        *bench.marks(
+            cutter, 0.7, marked=Terrain.of(relief), lines=[line.points, line.points[[0, 0]]]
+        ),
     ]
     assert deepest_gouge(relief, parts, cutter) <= GOUGE
 

@@ -11,6 +11,7 @@ from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
 from relieffab.relief.model import Relief
+from relieffab.relief.style.model import Marks
 from relieffab.stock import Stock
 from relieffab.toolpath.plan import default_cutters, plan
 from relieffab.toolpath.positions import Position, positions
@@ -183,6 +184,29 @@ def test_positions_leave_what_one_does(planned, way):
     for one in (parts[:3], parts[3:]):
         alone = np.quantile((carved(relief, one) - relief.heights)[:, seam][figure], 0.99)
         assert alone > left[0] + 0.5
+
+
+def test_marks_are_cut_last_into_the_finished_surface():
+    smooth, cutter = figure(), profiles.cutter("ball-2")
+    line = np.column_stack([np.linspace(8, 22, 60), 12 + 2 * np.cos(np.linspace(0, 3, 60))])
+    peck = np.array([[3.0, 3.0], [3.0, 3.0]])
+    x, y = np.meshgrid(*GRID.node_axes())
+    away = np.min([np.hypot(x - u, y - v) for u, v in [*line, *peck]], axis=0)
+    ground = np.where(smooth.heights < 0, smooth.heights, 0.0)
+    tips = ground - 0.2 + cutter.profile(np.minimum(away, 0.99))
+    marked = replace(smooth, heights=np.clip(np.minimum(ground, tips), -DEPTH, 0.0))
+    machine, material = profiles.machine(), profiles.material()
+    marks = Marks(cutter, smooth, (line, peck))
+    paths = plan(marked, strokes(), machine, material, marks=marks)
+    plain = plan(smooth, strokes(), machine, material)
+    assert [path.name for path in paths] == ["rough", "finish", "lines", "marks"]
+    for one, other in zip(paths[:3], plain, strict=True):
+        assert np.array_equal(one.points, other.points)
+    left = carved(marked, paths) - marked.heights
+    assert left.min() > -0.005
+    new = (smooth.heights - marked.heights > 0.1) & (smooth.heights == 0)
+    assert new.any() and left[new].max() < 0.02  # the peck
+    assert np.hypot(*(paths[3].points[:, :2] - (3.0, 3.0)).T).min() < 1e-9
 
 
 def test_a_panel_beyond_reach_says_what_to_try():

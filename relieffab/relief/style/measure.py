@@ -8,13 +8,13 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from relieffab.relief.model import Relief, nodes_of
+from relieffab.relief.quality.carve import TOLERANCE
 from relieffab.relief.style.carve import left_by
 from relieffab.relief.style.model import Marks, Style
 from relieffab.relief.style.names import NONE
 
 Floats = NDArray[np.float64]
 
-TOLERANCE = 0.02  # mm that a cutter may leave of a mark
 SHALLOW = 1e-3  # mm: less is no mark
 FAINT = 0.5  # of the deepest marks' depth: shallower places are ramps
 DEEPEST = 95.0  # percentile of the furrows' middles that stands for the deepest marks
@@ -39,6 +39,8 @@ class Measured:
         Marked, mm².
     within : float
         Share of it where the cutter, on its strokes, leaves no more than the tolerance.
+    left : float
+        99th percentile of what it leaves there, mm.
     tolerance : float
         mm.
     """
@@ -47,6 +49,7 @@ class Measured:
     depth: float
     area: float
     within: float
+    left: float
     tolerance: float = TOLERANCE
 
 
@@ -152,6 +155,12 @@ def measure(relief: Relief, marks: Marks, style: Style) -> dict[str, Measured]:
         there = np.where(where, cut, 0.0)
         marked = there > SHALLOW
         spacing, depth = look(there, style.chisel.spacing / pitch)
-        within = float((left[marked] <= TOLERANCE).mean()) if marked.any() else float("nan")
-        found[name] = Measured(spacing * pitch, depth, float(marked.sum()) * pitch**2, within)
+        stands = left[marked] if marked.any() else np.array([np.nan])
+        found[name] = Measured(
+            spacing=spacing * pitch,
+            depth=depth,
+            area=float(marked.sum()) * pitch**2,
+            within=float((stands <= TOLERANCE).mean()) if marked.any() else float("nan"),
+            left=float(np.percentile(stands, 99)),
+        )
     return found

@@ -99,6 +99,11 @@ class Style:
             Of the relief, marks included, mm.
         pitch : float
             mm.
+
+        Raises
+        ------
+        InputError
+            Saying what would fit.
         """
         chisel, tool = self.chisel, self.tool
         if chisel.depth > depth / 2:
@@ -107,6 +112,13 @@ class Style:
                 expected=f"at most half of its {depth:g} mm",
                 found=f"{chisel.depth:g} mm",
                 hint="a smaller --mark-depth or a larger --depth",
+            )
+        if chisel.spacing < FINEST * pitch:
+            raise InputError(
+                "the marks are closer together than the relief's pixels can show",
+                expected=f"{FINEST * pitch:.2g} mm or more",
+                found=f"{chisel.spacing:g} mm",
+                hint="a finer --resolution or a larger --mark-spacing",
             )
         width = mark_width(tool, chisel.depth)
         if width < FINEST * pitch:

@@ -14,8 +14,8 @@ Floats = NDArray[np.float64]
 Stroke = tuple[Floats, Floats]
 
 STEEPEST = 0.6  # of the tip's radius: so high above its lowest point it still touches a slope
-EVEN = 3.0  # samples of a stroke, about pixels
-GRAIN = 0.005  # mm
+EVEN = 4.0  # samples of a stroke, about pixels
+GRAIN = 0.01  # mm
 SAMPLES = 512  # of the tip's profile
 
 
@@ -33,7 +33,7 @@ def tip_table(cutter: Cutter, deepest: float) -> tuple[Floats, float]:
     return cutter.profile(np.linspace(0.0, reach, SAMPLES)), reach
 
 
-def _finer(heights: Floats) -> Floats:
+def finer(heights: Floats) -> Floats:
     """Put a node between any two."""
     rows, cols = (2 * n - 1 for n in heights.shape)
     fine = np.empty((rows, cols))
@@ -55,7 +55,9 @@ def _steady(z: Floats) -> Floats:
 
     A stroke that drifts over columns of nodes would show each of them as a step.
     """
-    even = ndimage.gaussian_filter1d(z, EVEN, mode="nearest")
+    around = int(4 * EVEN)
+    longer = np.pad(z, around, mode="reflect", reflect_type="odd")
+    even = ndimage.gaussian_filter1d(longer, EVEN)[around:-around]
     return np.clip(even, z - GRAIN, z + GRAIN)
 
 
@@ -91,7 +93,7 @@ def textured(
     deepest = max(float(deep.max()) for _, deep in strokes)
     table, reach = tip_table(cutter, deepest)
     tips = lowest_tips(smooth, pitch, cutter.profile)
-    fine = _finer(smooth)
+    fine = finer(smooth)
     left = fine.copy()
     for places, deep in strokes:
         z = _steady(ndimage.map_coordinates(tips, places.T, order=1, mode="nearest")) - deep

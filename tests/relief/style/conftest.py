@@ -72,6 +72,14 @@ def level():
 
 
 @pytest.fixture(scope="session")
+def lined():
+    """A level ground with a line drawn across it."""
+    lines = np.zeros((180, 240))
+    lines[87:93, 25:215] = 1.0
+    return level_ground(lines)
+
+
+@pytest.fixture(scope="session")
 def ball():
     return bent_ground(None, 10.0)
 
