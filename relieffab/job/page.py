@@ -69,7 +69,8 @@ def _placings(report: Mapping[str, Any]) -> str:
         part["placing"]: part["position"] for part in report["programs"] if "position" in part
     }
     if not placed:
-        return f"<p>Work zero: {_zero(report['slab']['work_zero'])}.</p>"
+        radius = report["slab"].get("radius", 0.0)
+        return f"<p>Work zero: {_zero(report['slab']['work_zero'], radius)}.</p>"
     rows = [
         [str(place["number"]), placing, _zero([*place["zero"], z])]
         for placing, place in placed.items()
@@ -77,8 +78,14 @@ def _placings(report: Mapping[str, Any]) -> str:
     return _table(["position", "how the stock lies", "work zero"], rows)
 
 
-def _zero(zero: Sequence[float]) -> str:
+def _zero(zero: Sequence[float], radius: float = 0.0) -> str:
     x, y, z = zero
+    if radius:
+        level = "on the face" if z == 0 else "on the axis"
+        return (
+            f"{x:g} mm along the axis from the figure's top, {y:g} mm round the face from its "
+            f"right edge, {level}; the stock is {2 * radius:g} mm thick and turns about X"
+        )
     level = "on the stock's face" if z == 0 else "under the stock"
     return f"{x:g} mm right and {y:g} mm up from the stock's near left corner, {level}"
 

@@ -9,15 +9,17 @@ import numpy as np
 
 from relieffab.cutter import Cutter
 from relieffab.errors import FindingsError, InputError
+from relieffab.gcode.program import Program
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.verify import Verification, verify
 from relieffab.grid import Grid
 from relieffab.job.certificate import RELIEF, file_hash, program_names
 from relieffab.job.report import read_report
-from relieffab.machine import Machine, Material, Use
+from relieffab.machine import Machine, Material, Rotary, Use
 from relieffab.picture import deviation_map, png8, predicted_look
 from relieffab.progress import Progress, silent
+from relieffab.relief.laid import laid
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
 from relieffab.stock import Stock
@@ -58,8 +60,13 @@ def judge(
         if not path.is_file():
             raise InputError("a program of the job is missing", where=str(path))
         text = path.read_text(encoding="latin-1")
-        programs.append(read_program(text, name=path.name, dialect=setup.post.dialect))
-    return verify(programs, cutters, relief, setup, positions=positions, progress=progress)
+        programs.append(_read(text, path.name, setup))
+    milled = laid(relief, setup.stock)
+    return verify(programs, cutters, milled, setup, positions=positions, progress=progress)
+
+
+def _read(text: str, name: str, setup: Setup) -> Program:
+    return read_program(text, name=name, dialect=setup.post.dialect, radius=setup.stock.radius)
 
 
 def _setup(report: Mapping[str, Any], depth: float) -> Setup:
@@ -69,7 +76,7 @@ def _setup(report: Mapping[str, Any], depth: float) -> Setup:
         Use(**{**use, "machines": tuple(use["machines"])}) for use in material["use"]
     )
     return Setup(
-        Machine(**{**report["machine"], **_tuples(report["machine"])}),
+        _machine(report["machine"]),
         Material(**material),
         Stock.of(report["slab"]),
         depth,
@@ -77,10 +84,17 @@ def _setup(report: Mapping[str, Any], depth: float) -> Setup:
     )
 
 
-def _tuples(machine: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
-    return {
-        name: tuple(machine[name]) for name in ("travel", "max_rate", "acceleration", "spindle")
-    }
+def _machine(values: Mapping[str, Any]) -> Machine:
+    """Build a machine from what JSON holds of it."""
+    lists = ("travel", "max_rate", "acceleration", "spindle")
+    rotary = values.get("rotary")
+    return Machine(
+        **{
+            **values,
+            **{name: tuple(values[name]) for name in lists},
+            "rotary": rotary and Rotary(**rotary),
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -147,11 +161,23 @@ def verification_part(verdict: Verification, relief: Relief, more: Sequence[str]
     }
 
 
-def write_pictures(verdict: Verification, relief: Relief, folder: Path) -> Part:
-    """Write the map of what is left and the predicted look; give their names."""
+def write_pictures(verdict: Verification, relief: Relief, stock: Stock, folder: Path) -> Part:
+    """Write the map of what is left and the predicted look, upright; give their names.
+
+    Parameters
+    ----------
+    verdict : Verification
+    relief : Relief
+    stock : Stock
+        As it lies on the machine.
+    folder : Path
+    """
     colours = deviation_map(verdict.deviation, verdict.figure, verdict.tolerance_mm)
+    carved = carved_relief(verdict, laid(relief, stock))
+    if stock.radius:
+        colours, carved = colours.swapaxes(0, 1).copy(), laid(carved, stock)
     (folder / DEVIATION).write_bytes(png8(colours))
-    look = predicted_look(relief, carved_relief(verdict, relief))
+    look = predicted_look(relief, carved)
     (folder / LOOK).write_bytes(png8(look))
     return {"deviation": DEVIATION, "look": LOOK}
 

@@ -127,7 +127,9 @@ def _prove(
         report["verification"] = {
             **proof.verification_part(verdict, relief),
             "certificate": certificate.certificate(report, folder),
-            "pictures": proof.write_pictures(verdict, relief, folder),
+            "pictures": proof.write_pictures(
+                verdict, relief, chain.setup_of(job, relief.depth).stock, folder
+            ),
         }
     if not verdict.ok:
         raise FindingsError(

@@ -83,10 +83,12 @@ def plan(
     settings = settings or Settings()
     stepover = settings.stepover
     stepover = scallop_stepover(cutters[1], settings.scallop) if stepover is None else stepover
-    check(relief, machine, cutters, stock or _bare_stock(relief), stepover, position)
+    slab = stock or _bare_stock(relief)
+    check(relief, machine, cutters, slab, stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
     uses = [cutting(cutter, material, machine) for cutter in cutters]
-    bench = Bench(_part(Terrain.of(relief), position, cutters), settings, position)
+    terrain = Terrain.of(relief, slab.radius)
+    bench = Bench(_part(terrain, position, cutters), settings, position)
     stages: tuple[Stage, ...] = (bench.rough, bench.finish, partial(bench.lines, strokes=strokes))
     paths = []
     for k, (name, cutter, use, stage) in enumerate(zip(NAMES, cutters, uses, stages, strict=True)):
