@@ -41,13 +41,14 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
     seconds = estimate(program, machine)
     low, high = program.bounds
     x, y, z = stock.work_zero
+    corner = "the figure's top right" if stock.radius else "the near left corner"
     size = f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm"
     return facts | {
         **_position(setup),
         "machine": f"{machine.name}, {setup.post.dialect.title}",
         "material": setup.material.title,
         "stock": _round(setup) or size,
-        "work zero": f"X {x:g} Y {y:g} mm from the near left corner, Z {z:g} mm from the face",
+        "work zero": f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from the face",
         "bounds, mm": "  ".join(
             f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
         ),
@@ -67,7 +68,8 @@ def _round(setup: Setup) -> str:
         "which the cutter goes over the work"
     )
     return (
-        f"round, {2 * stock.radius:g} mm, {stock.width:g} mm along X from the figure's top; {turn}"
+        f"round, {2 * stock.radius:g} mm thick, {stock.width:g} mm along X from the figure's top, "
+        f"{turn}"
     )
 
 

@@ -19,7 +19,7 @@ from relieffab.job.report import read_report
 from relieffab.machine import Machine, Material, Rotary, Use
 from relieffab.picture import deviation_map, png8, predicted_look
 from relieffab.progress import Progress, silent
-from relieffab.relief.laid import laid
+from relieffab.relief.laid import laid, upright
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
 from relieffab.stock import Stock
@@ -172,10 +172,11 @@ def write_pictures(verdict: Verification, relief: Relief, stock: Stock, folder: 
         As it lies on the machine.
     folder : Path
     """
-    colours = deviation_map(verdict.deviation, verdict.figure, verdict.tolerance_mm)
-    carved = carved_relief(verdict, laid(relief, stock))
+    deviation, figure = verdict.deviation, verdict.figure
     if stock.radius:
-        colours, carved = colours.swapaxes(0, 1).copy(), laid(carved, stock)
+        deviation, figure = deviation.T, figure.T
+    colours = deviation_map(deviation, figure, verdict.tolerance_mm)
+    carved = upright(carved_relief(verdict, laid(relief, stock)), stock)
     (folder / DEVIATION).write_bytes(png8(colours))
     look = predicted_look(relief, carved)
     (folder / LOOK).write_bytes(png8(look))

@@ -23,12 +23,19 @@ def laid(relief: Relief, stock: Stock) -> Relief:
     stock : Stock
         As wide as the panel is high, and as high as that is wide.
     """
-    if not stock.radius:
-        return relief
+    return _swapped(relief, stock.width, stock.height) if stock.radius else relief
+
+
+def upright(relief: Relief, stock: Stock) -> Relief:
+    """Undo `laid`."""
+    return _swapped(relief, stock.height, stock.width) if stock.radius else relief
+
+
+def _swapped(relief: Relief, width: float, height: float) -> Relief:
+    """Mirror a relief so that X grows against its Y, and Y against its X."""
     grid, (x, y) = relief.grid, relief.grid.origin
-    place = (stock.width - y, stock.height - x)
-    turned = Grid(grid.cols, grid.rows, grid.pitch, place)
-    return Relief(turned, relief.heights.T.copy(), relief.mask.T.copy(), relief.depth)
+    swapped = Grid(grid.cols, grid.rows, grid.pitch, (width - y, height - x))
+    return Relief(swapped, relief.heights.T.copy(), relief.mask.T.copy(), relief.depth)
 
 
 def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:
