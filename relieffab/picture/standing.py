@@ -110,8 +110,10 @@ def _shaded(solid: _Seen, grid: Grid, light: ArrayLike) -> NDArray[np.uint8]:
     heights, seen = nodes_over(solid, grid)
     hull = ConvexHull(solid.vertices).simplices
     around, _ = nodes_over(_Seen(solid.vertices, hull), grid)
-    # Only what is sunk casts shadows: the solid itself is as far from the eye as it is wide.
-    sunk = np.maximum(np.where(seen, heights - around, 0.0), -DEEPEST).astype(np.float32)
+    # Only what is sunk casts shadows, as deep as it is square to the uncut face.
+    upright = pixel_normals(np.pad(around, ((0, 1), (0, 1)), mode="edge"), grid.pitch)[..., 2]
+    sunk = np.where(seen, np.maximum((heights - around) * upright, -DEEPEST), 0.0)
+    sunk = sunk.astype(np.float32)
     open_sky = sky(sunk, grid.pitch)
     edge = np.where(seen, heights, heights[seen].min())
     normals = pixel_normals(np.pad(edge, ((0, 1), (0, 1)), mode="edge"), grid.pitch)
