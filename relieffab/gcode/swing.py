@@ -90,11 +90,11 @@ def _deepest_share(c, move, shape, form):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def lowered(c: float, least: float, move, shape: Shape, form: Floats) -> float:  # type: ignore[no-untyped-def]
-    """Radius down to which a move cuts a ray that stands to radius c.
+def lowered(c: float, least: float, move, shape: Shape, form: Floats):  # type: ignore[no-untyped-def]
+    """Radius down to which a move cuts a ray that stands to radius c, and where that begins.
 
     A cutter beside a ray may meet it deep down and not at its top: what would overhang
-    counts as gone.
+    counts as gone, but the cutter does not cut it.
 
     Parameters
     ----------
@@ -116,22 +116,23 @@ def lowered(c: float, least: float, move, shape: Shape, form: Floats) -> float: 
     for _ in range(STEPS):
         t = _deepest_share(at, move, shape, form)
         if t < 0.0:
-            return c
+            return c, c
         x, a = dx - t * gone_x, p - t * gone_p
         s, cosine = sin(a), cos(a)
         away = min(hypot(x, at * s), shape[5])
         over = base + t * gone_z + profile_height(away * away, shape, form) - at * cosine
         if abs(over) <= CLOSE:
-            return at
+            beside = sqrt(max(shape[5] * shape[5] - x * x, 0.0))
+            return at, (min(c, max(beside / abs(s), at)) if s != 0.0 else c)
         rise = 0.0 if away == 0.0 else profile_slope(away, shape, form) * at * s * s / away
         if rise >= cosine:
-            return c
+            return c, c
         at += over / (cosine - rise)
         if at > c:
             if topped:
-                return c
+                return c, c
             at, topped = c, True
-    return at
+    return at, c
 
 
 @kernel
@@ -161,9 +162,9 @@ def _lower_row(row, x_start, pitch, ray, move, least, shape, form):  # type: ign
         c, under = radius + row[j], bottom + profile_height(near2, shape, form)
         if c <= under:
             continue
-        met = lowered(c, under, (dx, gone_x, p, gone_p, base, gone_z), shape, form)
+        met, top = lowered(c, under, (dx, gone_x, p, gone_p, base, gone_z), shape, form)
         if met < c:
-            deepest = max(deepest, c - met)
+            deepest = max(deepest, top - met)
             row[j] = met - radius
     return deepest
 

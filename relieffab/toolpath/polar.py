@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from relieffab.compiled import kernel, parallel_kernel, prange
 from relieffab.toolpath.drop import drop_on_edge
-from relieffab.toolpath.outline import R1, height_at, touch
+from relieffab.toolpath.outline import R1, height_at, radius_at, touch
 
 Floats = NDArray[np.float64]
 
@@ -104,7 +104,8 @@ def _on_rows(best, heights, cell_top, cx, cy, low, pitch, radius, outline):  # t
     """Tip height at which the cutter at (cx, cy) rests on any cell, or `best`."""
     rows, cols = cell_top.shape
     least = radius + low
-    reach = outline[-1, R1]
+    # Nothing stands above the face: further out the cutter is higher than that.
+    reach = outline[-1, R1] if best == -inf else radius_at(outline, max(-best, 0.0))
     wide = 0.5 * pi if reach >= least else asin(reach / least)
     first = max(int(np.floor((cy - wide * radius) / pitch)), 0)
     last = min(int(np.floor((cy + wide * radius) / pitch)), rows - 1)
@@ -135,6 +136,12 @@ def _drop(heights, cell_top, cx, cy, low, pitch, radius, outline):  # type: igno
         side = min(cy, rows * pitch - cy)
         border = min(border, radius * sin(min(side / radius, 0.5 * pi)) if side > 0.0 else side)
     best = 0.0 if border <= 0.0 else -height_at(outline, border) if border <= reach else -inf
+    # The cell below comes first: most others then need no look.
+    i, j = int(np.floor(cy / pitch)), int(np.floor(cx / pitch))
+    if 0 <= i < rows and 0 <= j < cols:
+        p0, p1 = (i * pitch - cy) / radius, ((i + 1) * pitch - cy) / radius
+        turn = (sin(p0), cos(p0), sin(p1), cos(p1))
+        best = _on_cell(best, heights, i, j, j * pitch - cx, pitch, radius, turn, outline)
     for turns in range(-1, 2):
         y = cy + turns * around
         best = _on_rows(best, heights, cell_top, cx, y, low, pitch, radius, outline)

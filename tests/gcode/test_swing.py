@@ -108,3 +108,12 @@ def test_slopes_are_those_of_the_profile(name):
         rise = (cutter.profile(r + 1e-6) - cutter.profile(r - 1e-6)) / 2e-6
         if abs(r - cutter.flat_radius) > 1e-3 and abs(r - cutter.arc_end) > 1e-3:
             assert profile_slope(r, shape, form) == pytest.approx(rise, rel=1e-4, abs=1e-6)
+
+
+def test_what_a_flank_leaves_overhanging_is_no_load():
+    # Again 1 mm deeper: rays just beside the rim are met from the side, in their last bit.
+    slab = slab_of(10.0, (6.0, 10.0), 0.05)
+    down = np.array([[3.0, 5.0, 1.0], [3.0, 5.0, -1.0]])
+    slab.cut(down, CUTTERS["flat"])
+    bites = slab.cut(down - [0, 0, 1.0], CUTTERS["flat"])
+    assert bites[1] == pytest.approx(1.0, abs=0.03)
