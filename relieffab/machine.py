@@ -1,10 +1,37 @@
 """Machine and Material: what can move, how fast, and how willingly the stock is cut."""
 
-from dataclasses import dataclass
-from math import inf
+from dataclasses import dataclass, replace
+from math import inf, pi, radians
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
+
+
+@dataclass(frozen=True)
+class Rotary:
+    """An axis that turns the work about the machine's X.
+
+    Parameters
+    ----------
+    max_rate : float
+        Degrees a minute.
+    acceleration : float
+        Degrees/s².
+    diameter : float
+        Largest work that it has room for, mm.
+    """
+
+    max_rate: float
+    acceleration: float
+    diameter: float
+
+    def __post_init__(self) -> None:
+        for name in ("max_rate", "acceleration", "diameter"):
+            if not 0 < getattr(self, name) < inf:
+                raise InputError(
+                    f"the rotary axis cannot have a {name} of {getattr(self, name):g}",
+                    expected="more than 0",
+                )
 
 
 @dataclass(frozen=True)
@@ -38,6 +65,8 @@ class Machine:
     baud : float
         Bits a second of its serial line, ten to a character.
     dialect : str
+    rotary : Rotary or None
+        Where there is one; Grbl, which knows three axes, has it in place of Y.
     source : str
         Where these values come from.
     """
@@ -56,6 +85,7 @@ class Machine:
     line_rate: float = 400.0
     baud: float = 115200.0
     dialect: str = "grbl"
+    rotary: Rotary | None = None
     source: str = ""
 
     def __post_init__(self) -> None:
@@ -89,6 +119,52 @@ class Machine:
                 found=f"{self.safe_height} mm",
                 where=f"machine {self.name}",
             )
+
+
+def turning(machine: Machine, radius: float) -> Machine:
+    """See a machine's rotary axis as a Y that goes round a face.
+
+    Parameters
+    ----------
+    machine : Machine
+    radius : float
+        Of the face, mm.
+
+    Returns
+    -------
+    Machine
+        Its travel, rate and acceleration of Y are the rotary axis's, in mm on the face.
+
+    Raises
+    ------
+    InputError
+        If it has none, or no room for the work.
+    """
+    rotary = machine.rotary
+    if rotary is None:
+        raise InputError(
+            f"the machine {machine.name} has no rotary axis",
+            expected="[rotary] with max_rate, acceleration and diameter in its profile",
+            where="round",
+            hint="a --machine that has one, or a profile of yours; `relieffab panel` makes the "
+            "solid without one",
+        )
+    if 2 * radius > rotary.diameter:
+        raise InputError(
+            f"the work is too thick for the rotary axis of {machine.name}",
+            expected=f"a diameter of at most {rotary.diameter:g} mm",
+            found=f"{2 * radius:g} mm",
+            where="round",
+        )
+    (x, _, z), degree = machine.travel, radians(1) * radius
+    return replace(
+        machine,
+        travel=(x, 2 * pi * radius + 1.0, z),
+        max_rate=(machine.max_rate[0], rotary.max_rate * degree, machine.max_rate[2]),
+        acceleration=(
+            machine.acceleration[0], rotary.acceleration * degree, machine.acceleration[2],
+        ),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

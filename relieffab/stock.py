@@ -35,6 +35,10 @@ class Stock:
     keyholes : tuple of Keyhole
     turned : bool
         Whether it lies on the machine turned half round about Z.
+    radius : float
+        Of the face of a round stock, laid out flat here with its axis along X, mm;
+        Z is square to the face.  Programs mirror its Y, see `relieffab.relief.laid`.  0 for a
+        flat one.
 
     Raises
     ------
@@ -52,6 +56,7 @@ class Stock:
     holes: tuple[Hole, ...] = ()
     keyholes: tuple[Keyhole, ...] = ()
     turned: bool = False
+    radius: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("width", "height", "thickness"):
@@ -62,11 +67,12 @@ class Stock:
                     expected="more than 0, less than 100 m",
                 )
         x, y, z = self.work_zero
-        if not (0 <= x <= self.width and 0 <= y <= self.height and -self.thickness <= z <= 0):
+        deepest = max(self.thickness, self.radius)
+        if not (0 <= x <= self.width and 0 <= y <= self.height and -deepest <= z <= 0):
             raise InputError(
                 "work zero lies off the stock",
                 expected=f"X 0 to {self.width:g}, Y 0 to {self.height:g}, "
-                f"Z {-self.thickness:g} to 0 mm on the panel",
+                f"Z {-deepest:g} to 0 mm on the panel",
                 found=f"X {x:g}, Y {y:g}, Z {z:g} mm",
             )
         outline = self.outline
@@ -94,6 +100,8 @@ class Stock:
 
     @property
     def _way(self) -> tuple[float, float, float]:
+        if self.radius:
+            return (1.0, -1.0, 1.0)
         return (-1.0, -1.0, 1.0) if self.turned else (1.0, 1.0, 1.0)
 
     @property
@@ -152,6 +160,7 @@ class Stock:
         place : str
             One of `PLACES`: 'near-left', 'centre', 'far' ...
         level : {'top', 'bottom'}
+            The bottom of a round stock is its axis.
         **form
             The stock's other parameters.
 
@@ -167,7 +176,7 @@ class Stock:
         if level not in LEVELS:
             raise InputError("work zero is at top or bottom", found=level)
         x, y = PLACES[place]
-        z = 0.0 if level == "top" else -size[2]
+        z = 0.0 if level == "top" else -(form.get("radius", 0.0) or size[2])
         return cls(*size, work_zero=(x * size[0], y * size[1], z), **form)
 
     def _openings(self) -> list[tuple[Place, Place, float]]:

@@ -1,12 +1,13 @@
 """What one cutter may do in one material on one machine."""
 
 from dataclasses import replace
+from math import pi
 
 import pytest
 
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
-from relieffab.machine import Machine, Material, Use, cutting
+from relieffab.machine import Machine, Material, Rotary, Use, cutting, turning
 
 CUTTER = Cutter("f", "flat", 3.0, 9.0, 1.0, 1000.0, 300.0, 12000.0)
 MACHINE = Machine(
@@ -93,3 +94,24 @@ def test_a_slower_spindle_keeps_the_chip():
 def test_impossible_uses(values, word):
     with pytest.raises(InputError, match=word):
         known(**values)
+
+
+ROTARY = Rotary(3600.0, 180.0, 100.0)
+
+
+def test_a_rotary_axis_is_a_y_that_goes_round_the_face():
+    found = turning(replace(MACHINE, rotary=ROTARY), 40.0)
+    turn = 2 * pi * 40.0
+    assert found.max_rate == (900.0, pytest.approx(10 * turn), 250.0)
+    assert found.acceleration == (30.0, pytest.approx(turn / 2), 30.0)
+    assert found.travel[1] >= turn
+    assert found.travel[::2] == MACHINE.travel[::2]
+
+
+def test_without_a_rotary_axis_or_room_there_is_no_turning():
+    with pytest.raises(InputError, match="has no rotary axis"):
+        turning(MACHINE, 40.0)
+    with pytest.raises(InputError, match="too thick for the rotary axis"):
+        turning(replace(MACHINE, rotary=ROTARY), 50.1)
+    with pytest.raises(InputError, match="max_rate of 0"):
+        Rotary(0.0, 180.0, 100.0)

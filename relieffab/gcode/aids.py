@@ -37,22 +37,29 @@ def outline_program(setup: Setup) -> str:
     (x0, y0), (x1, y1) = setup.window
     corners = stock.to_work([(x, y, 0) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))])
     around = np.roll(corners, 2, axis=0) if stock.turned else corners
-    around = np.concatenate([around, around[:1]])[:, :2].tolist()
-    places = [[post.number(round(mm * post.per_mm)) for mm in corner] for corner in around]
-    feed = post.feed(min(FEED, *setup.machine.max_rate[:2]))
+    around = np.concatenate([around, around[:1]])[:, :2]
+    places = [
+        f"X{post.number(x)} {post.across(y)}"
+        for x, y in np.rint(around * post.scales[:2]).astype(int).tolist()
+    ]
+    rate = min(FEED, *setup.machine.max_rate[:2])
+    feed, lengths = post.feed(rate), np.linalg.norm(np.diff(around, axis=0), axis=1)
+    feeds = [post.inverse(rate, way) if post.turns else feed for way in lengths.tolist()]
     slow = f" F{feed}" if post.dialect.rapid_feed else ""
     rise = f" F{post.feed(setup.machine.max_rate[2])}" if post.dialect.rapid_feed else ""
     lines = [
         *_head(setup, "the panel's outline in the air, spindle off"),
-        *_modes(setup),
+        *_modes(setup, moving=True),
         "M5",
         f"G0 Z{high}{rise}",
-        f"G0 X{places[0][0]} Y{places[0][1]}{slow}",
-        *(f"G1 X{x} Y{y} F{feed}" for x, y in places[1:]),
+        f"G0 {places[0]}{slow}",
+        *(f"G1 {place} F{its}" for place, its in zip(places[1:], feeds, strict=True)),
+        *(["G94"] if post.turns else []),
         post.dialect.end,
     ]
     text = "\n".join(lines) + "\n"
-    points = read_program(text, name="outline", dialect=post.dialect).points
+    read = read_program(text, name="outline", dialect=post.dialect, radius=stock.radius)
+    points = read.points
     findings = travel_findings(points, setup.machine)
     if findings:
         raise InputError(
@@ -114,10 +121,11 @@ def _head(setup: Setup, what: str) -> Iterator[str]:
         yield f"{before}{harmless(text)}{after}"
 
 
-def _modes(setup: Setup) -> list[str]:
+def _modes(setup: Setup, *, moving: bool = False) -> list[str]:
     post = setup.post
     first, *rest = post.dialect.start or ("",)
     return [
         f"{post.units_word} G90 {first}".rstrip(),
         *(line.format(blend=post.blend()) for line in rest),
+        *(["G93"] if moving and post.turns else []),
     ]

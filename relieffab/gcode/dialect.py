@@ -35,6 +35,9 @@ class Dialect:
         Whether G0 goes at the feed last named, so that it needs one of its own.
     dwell : float
         What P of G4 counts to a second.
+    rotary : str
+        The word of a rotary axis: 'A' in degrees and feeds by inverse time (G93), 'Y' where
+        one is wired in place of Y and counts mm round the face, empty where there is none.
     probe : tuple of str
         The word that moves until the probe touches, and the line that then says where that
         is; `{z}` stands for the height.
@@ -53,13 +56,15 @@ class Dialect:
     modal: bool = True
     rapid_feed: bool = False
     dwell: float = 1.0
+    rotary: str = "A"
     probe: tuple[str, str] = ("G38.2", "G10 L20 P1 Z{z}")
     source: str = ""
 
     @property
     def codes(self) -> frozenset[str]:
         """Every G and M code a program in this dialect may hold."""
-        return (COMMON | self.takes) - self.refuses
+        turning = {"G93"} if self.rotary == "A" else set()
+        return (COMMON | self.takes | turning) - self.refuses
 
 
 _USUAL = ("G17 G94 G54",)
@@ -68,16 +73,18 @@ DIALECTS = {
     dialect.name: dialect
     for dialect in (
         Dialect(
-            "grbl", "Grbl 1.1", 79, _USUAL,
+            "grbl", "Grbl 1.1", 79, _USUAL, rotary="Y",
             source="Grbl 1.1 config.h (LINE_BUFFER_SIZE 80), gcode.c",
         ),
         Dialect(
             "grblhal", "grblHAL", 256, _USUAL, takes=frozenset({"M6"}),
-            source="grblHAL core config.h, gcode.c; M6 waits for the operator",
+            source="grblHAL core config.h, gcode.c (G93, A where N_AXIS is over 3); M6 waits for "
+            "the operator",
         ),
         Dialect(
             "fluidnc", "FluidNC", 255, _USUAL,
-            source="FluidNC Channel.h; M6 is passed over unless set up (bdring/FluidNC#842)",
+            source="FluidNC Channel.h, GCode.cpp (G93); M6 is passed over unless set up "
+            "(bdring/FluidNC#842)",
         ),
         Dialect(
             "linuxcnc", "LinuxCNC", 255, ("G17 G40 G49 G80 G91.1 G94 G54", "G64 P{blend}"),
@@ -87,7 +94,7 @@ DIALECTS = {
         ),
         Dialect(
             "marlin", "Marlin 2", 95, (), end="M400", comments=";", modal=False, rapid_feed=True,
-            takes=frozenset({"M400"}), dwell=1000.0, probe=("G38.2", "G92 Z{z}"),
+            takes=frozenset({"M400"}), dwell=1000.0, rotary="", probe=("G38.2", "G92 Z{z}"),
             refuses=frozenset({
                 *("G17", "G20", "G40", "G49", "G54", "G61", "G80", "G91.1", "G94"),
                 *("M2", "M30"),

@@ -42,7 +42,7 @@ def eased(path: Toolpath, setup: Setup, slab: Slab) -> Toolpath:
     use = cutting(path.cutter, setup.material, setup.machine)
     for _ in range(_ROUNDS):
         # As it will be written: a node at the cutter's rim is cut or not by a rounded step.
-        written = stepped(path.points, setup.stock, setup.post) / setup.post.per_mm
+        written = stepped(path.points, setup.stock, setup.post) / setup.post.scales
         bites = slab.copy().cut(setup.stock.to_panel(written), path.cutter)
         bad = (bites > limits.deepest_pass) & np.isfinite(path.feed)
         bad[0] = False

@@ -3,6 +3,7 @@
 import textwrap
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
+from math import pi
 
 from relieffab import __version__
 from relieffab.gcode.estimate import estimate
@@ -40,17 +41,36 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
     seconds = estimate(program, machine)
     low, high = program.bounds
     x, y, z = stock.work_zero
+    corner = "the figure's top right" if stock.radius else "the near left corner"
+    size = f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm"
     return facts | {
         **_position(setup),
         "machine": f"{machine.name}, {setup.post.dialect.title}",
         "material": setup.material.title,
-        "stock": f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm",
-        "work zero": f"X {x:g} Y {y:g} mm from the near left corner, Z {z:g} mm from the face",
+        "stock": _round(setup) or size,
+        "work zero": f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from the face",
         "bounds, mm": "  ".join(
             f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
         ),
         "time": f"{int(seconds // 60)} min {int(seconds % 60)} s",
     }
+
+
+def _round(setup: Setup) -> str:
+    """Say how a round stock lies and which way it turns; nothing of a flat one."""
+    stock, post = setup.stock, setup.post
+    if not stock.radius:
+        return ""
+    turn = (
+        "A turns the cutter about X against the work, right-handed, by inverse time"
+        if post.turns
+        else f"Y is mm round the face, {2 * pi * stock.radius:.3f} to a turn, in the way in "
+        "which the cutter goes over the work"
+    )
+    return (
+        f"round, {2 * stock.radius:g} mm thick, {stock.width:g} mm along X from the figure's top, "
+        f"{turn}"
+    )
 
 
 def _position(setup: Setup) -> dict[str, str]:

@@ -12,7 +12,9 @@ from relieffab.toolpath.remains import after
 Floats = NDArray[np.float64]
 
 
-def missed_patch(relief: Relief, excess: Floats, cutter: Cutter, tolerance: float) -> float:
+def missed_patch(
+    relief: Relief, excess: Floats, cutter: Cutter, tolerance: float, radius: float = 0.0
+) -> float:
     """Measure the largest patch a cutter left standing though it could reach it.
 
     What a cutter can make of a relief is the relief closed by it: dropped at
@@ -30,6 +32,8 @@ def missed_patch(relief: Relief, excess: Floats, cutter: Cutter, tolerance: floa
     cutter : Cutter
     tolerance : float
         mm.
+    radius : float, optional
+        Of the face of a round stock, mm; 0 where it is flat.
 
     Returns
     -------
@@ -41,7 +45,7 @@ def missed_patch(relief: Relief, excess: Floats, cutter: Cutter, tolerance: floa
     if not asked.any():
         return 0.0
     missed = np.zeros_like(asked)
-    unmade = excess[asked] - _residual(relief, asked, cutter)
+    unmade = excess[asked] - _residual(relief, asked, cutter, radius)
     missed[asked] = unmade * upright[asked] > tolerance
     patches, count = ndimage.label(missed, structure=np.ones((3, 3)))
     if not count:
@@ -57,11 +61,11 @@ def _flatness(relief: Relief) -> Floats:
     return cosine
 
 
-def _residual(relief: Relief, asked: NDArray[np.bool_], cutter: Cutter) -> Floats:
+def _residual(relief: Relief, asked: NDArray[np.bool_], cutter: Cutter, radius: float) -> Floats:
     """Least height above the relief the cutter can leave at the nodes asked for, mm."""
     pitch = relief.grid.pitch
     near = ndimage.distance_transform_edt(~asked) * pitch <= cutter.arc_end + pitch
     x, y = relief.grid.to_xy(*(k.astype(float) for k in np.nonzero(near)))
-    tips = np.column_stack([x, y, tip_heights(Terrain.of(relief), cutter, x, y)])
+    tips = np.column_stack([x, y, tip_heights(Terrain.of(relief, radius), cutter, x, y)])
     closed = after(np.zeros(asked.shape), relief.grid, cutter, tips)
     return closed[asked] - relief.heights[asked]

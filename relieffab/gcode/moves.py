@@ -41,8 +41,8 @@ class Moves:
 
 
 def stepped(points: Floats, stock: Stock, post: Post) -> Ints:
-    """Round points on the panel to steps from work zero: X and Y to the nearest, Z up."""
-    scaled = stock.to_work(points) * post.per_mm
+    """Round points on the panel to steps from work zero: X and Y, or A, to the nearest, Z up."""
+    scaled = stock.to_work(points) * post.scales
     steps: Ints = np.rint(scaled).astype(np.int64)
     steps[:, 2] = np.ceil(scaled[:, 2] - 1e-6).astype(np.int64)
     return steps
@@ -62,6 +62,9 @@ def moves_of(toolpath: Toolpath, machine: Machine, stock: Stock, post: Post) -> 
     steps = np.concatenate([ends[:1], steps, ends[1:]])
     feed = np.concatenate([[np.inf], toolpath.feed, [np.inf]])
     moved = np.concatenate([[True], (np.diff(steps, axis=0) != 0).any(axis=1)])
+    if post.turns:
+        none = np.zeros(int(moved.sum()), np.int64)
+        return Moves(steps[moved], feed[moved], none, np.stack([none, none], axis=1))
     return _with_arcs(steps[moved], feed[moved], arcfit.TOLERANCE * post.per_mm)
 
 
@@ -75,6 +78,7 @@ def _with_arcs(steps: Ints, feed: Floats, tolerance: float) -> Moves:
 def lines(moves: Moves, post: Post, machine: Machine) -> Iterator[str]:
     """Write every move but the first; each word only where it changes, if it may be left out."""
     number, modal = post.number, post.dialect.modal
+    lengths = iter(_lengths(moves, post))
     gap = "" if modal else " "
     x, y, z = moves.steps[0].tolist()
     mode, rate = "G0" if modal else "", np.inf
@@ -94,18 +98,28 @@ def lines(moves: Moves, post: Post, machine: Machine) -> Iterator[str]:
         if to_x != x or turn:
             words.append("X" + number(to_x))
         if to_y != y or turn:
-            words.append("Y" + number(to_y))
+            words.append(post.across(to_y))
         if to_z != z:
             words.append("Z" + number(to_z))
         if turn:
             words += ["I" + number(centre[0] - x), "J" + number(centre[1] - y)]
         if to_mode == "G0" and post.dialect.rapid_feed:
             to_rate = _rapid(machine, (to_x != x or to_y != y, to_z != z))  # noqa: PLW2901
-        if to_rate not in (rate, np.inf):
+        length = next(lengths)
+        if post.turns and to_mode != "G0":
+            words.append("F" + post.inverse(to_rate, length))
+        elif to_rate not in (rate, np.inf):
             words.append("F" + post.feed(to_rate))
             rate = to_rate
         x, y, z = to_x, to_y, to_z
         yield gap.join(words)
+
+
+def _lengths(moves: Moves, post: Post) -> list[float]:
+    """Length of each move but the first, on a face that is laid out flat, mm."""
+    steps = np.diff(moves.steps, axis=0) / post.scales
+    lengths: list[float] = np.linalg.norm(steps, axis=1).tolist()
+    return lengths
 
 
 def _rapid(machine: Machine, moved: tuple[bool, bool]) -> float:

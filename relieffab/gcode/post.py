@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import ceil, floor, log10
+from math import ceil, degrees, floor, log10
 from typing import Literal
 
 from relieffab.errors import InputError
@@ -13,6 +13,8 @@ Units = Literal["mm", "in"]
 
 DECIMALS = {"mm": 3, "in": 5}
 """Of a written coordinate: 1 um, 0.25 um."""
+TURN_DECIMALS = 4
+"""Of a written angle: 0.0001 degrees, 0.07 um on a face of 80 mm."""
 
 
 @dataclass(frozen=True)
@@ -23,15 +25,18 @@ class Post:
     ----------
     dialect : Dialect
     units : {'mm', 'in'}
+    radius : float
+        Of the face of a round stock, mm; 0 for a flat one.
 
     Raises
     ------
     InputError
-        If the dialect does not know the units.
+        If the dialect does not know the units, or no rotary axis.
     """
 
     dialect: Dialect = GRBL
     units: Units = "mm"
+    radius: float = 0.0
 
     def __post_init__(self) -> None:
         if self.units not in DECIMALS:
@@ -43,6 +48,53 @@ class Post:
                 found=self.units,
                 where="units",
             )
+        if self.radius and not self.dialect.rotary:
+            raise InputError(
+                f"{self.dialect.title} has no rotary axis and no inverse time",
+                expected="a controller that takes A and G93, or Grbl with one in place of Y",
+                where="machine",
+            )
+
+    @property
+    def turns(self) -> bool:
+        """Whether what is Y on the panel is written as an angle, and feeds by inverse time."""
+        return bool(self.radius) and self.dialect.rotary == "A"
+
+    @property
+    def scales(self) -> tuple[float, float, float]:
+        """Steps of each written coordinate to a mm.
+
+        A turns the cutter about X against the work, right-handed: from Z to -Y.
+        """
+        mm = self.per_mm
+        around = -degrees(1) / self.radius * 10**TURN_DECIMALS if self.turns else mm
+        return mm, around, mm
+
+    def across(self, steps: int) -> str:
+        """Write the word for a place along Y, or round the axis.
+
+        Examples
+        --------
+        >>> Post().across(12500)
+        'Y12.5'
+        """
+        return f"A{_number(steps, TURN_DECIMALS)}" if self.turns else f"Y{self.number(steps)}"
+
+    def inverse(self, rate: float, length: float) -> str:
+        """Write a feed by inverse time, never above the one given.
+
+        Parameters
+        ----------
+        rate : float
+            mm/min.
+        length : float
+            Of the move, mm.
+        """
+        value = rate / max(length, 1e-9)
+        places = max(0, 4 - floor(log10(max(value, 1e-9))))
+        scaled = floor(value * 10**places * (1 + 1e-12))
+        text = f"{scaled / 10**places:.{places}f}"
+        return text.rstrip("0").rstrip(".") if places else text
 
     @property
     def units_word(self) -> str:

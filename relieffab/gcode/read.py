@@ -1,7 +1,7 @@
 """The text of a program read back as its controller would run it, apart from the writer."""
 
 import re
-from math import inf, isnan, nan
+from math import dist, inf, isnan, nan, radians
 
 import numpy as np
 
@@ -26,6 +26,7 @@ GROUP = {
     "G90": "distance",
     "G91": "distance",
     "G91.1": "arc distance",
+    "G93": "feed mode",
     "G94": "feed mode",
     **dict.fromkeys(["M0", "M1", "M2", "M30", "M400"], "stop"),
     "M6": "cutter",
@@ -37,17 +38,20 @@ NOT_FOLLOWED = {
     *("G10", "G18", "G19", "G28", "G28.1", "G30", "G30.1", "G38.2", "G38.3", "G38.4", "G38.5"),
     *("G43.1", "G53", "G55", "G56", "G57", "G58", "G59", "G92", "G92.1", "G93"),
 }
-VALUES = frozenset("FHIJKLNPRSTXYZ")
+VALUES = frozenset("AFHIJKLNPRSTXYZ")
+AXES = frozenset("XYZA")
 ARC_WORDS = frozenset("IJR")
 
 _NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
 # Nearly all lines of a relief look like this, and are read without more ado.
 _PLAIN = re.compile(
-    rf"(?:G([01]))?(?:X({_NUMBER}))?(?:Y({_NUMBER}))?(?:Z({_NUMBER}))?(?:F(\d+\.?\d*))?"
+    rf"(?:G([01]))?(?:X({_NUMBER}))?(?:([YA])({_NUMBER}))?(?:Z({_NUMBER}))?(?:F(\d+\.?\d*))?"
 )
 
 
-def read_program(text: str, *, name: str = "program", dialect: Dialect = GRBL) -> Program:
+def read_program(
+    text: str, *, name: str = "program", dialect: Dialect = GRBL, radius: float = 0.0
+) -> Program:
     """Interpret a program of G-code.
 
     Takes the codes of the dialect, F, S, T and N, in either case, with blanks and
@@ -61,6 +65,9 @@ def read_program(text: str, *, name: str = "program", dialect: Dialect = GRBL) -
         For messages: the file's name, usually.
     dialect : Dialect
         Whose codes and habits hold.
+    radius : float
+        Of the face of a round stock, mm: where the controller has a rotary axis, the
+        program's A is what Y is on the face laid out flat.  0 for a flat one.
 
     Raises
     ------
@@ -68,7 +75,7 @@ def read_program(text: str, *, name: str = "program", dialect: Dialect = GRBL) -
         Naming the line, and Grbl's own error where it has one.
     """
     check_bytes(text, name)
-    reader = _Interpreter(name, dialect)
+    reader = _Interpreter(name, dialect, radius if dialect.rotary == "A" else 0.0)
     lines = text.splitlines()
     for number, raw in enumerate(lines, 1):
         if reader.simple and (match := _PLAIN.fullmatch(raw)) and reader.plain(match, number):
@@ -82,8 +89,10 @@ def read_program(text: str, *, name: str = "program", dialect: Dialect = GRBL) -
 class _Interpreter:
     """The modal state, and the motion so far."""
 
-    def __init__(self, name: str, dialect: Dialect) -> None:
+    def __init__(self, name: str, dialect: Dialect, radius: float) -> None:
         self.name = name
+        self.second = "A" if radius else "Y"  # the axis square to X and Z
+        self.per_degree = -radians(1) * radius
         self.dialect = dialect
         self.ends = {"M2", "M30", dialect.end} & dialect.codes
         self.tool = self.selected = 0
@@ -111,10 +120,12 @@ class _Interpreter:
 
     def plain(self, match: re.Match[str], number: int) -> bool:
         """Run a line of G0 or G1 and plain axis words; say whether that was possible."""
-        motion, x, y, z, feed = match.groups()
-        if not (motion or self.dialect.modal):
+        motion, x, axis, y, z, feed = match.groups()
+        if not (motion or self.dialect.modal) or (axis and axis != self.second):
             return False
         rapid = (motion == "0") if motion else self.modes["motion"] == "G0"
+        if self.inverse and not rapid and not feed:
+            return False
         rate = float(feed) if feed else self.feed
         if (not rapid and rate == 0) or match.end() > self.dialect.characters or not (x or y or z):
             return False
@@ -122,8 +133,12 @@ class _Interpreter:
             self.modes["motion"] = "G" + motion
         self.number, self.feed, self.size = number, rate, match.end() + 1
         at = self.at
-        target = float(x) if x else at[0], float(y) if y else at[1], float(z) if z else at[2]
-        self._record(target, inf if rapid else rate)
+        target = (
+            float(x) if x else at[0],
+            float(y) * (self.per_degree or 1.0) if y else at[1],
+            float(z) if z else at[2],
+        )
+        self._record(target, inf if rapid else self._rate(target, rate))
         return True
 
     def block(self, words: Words, number: int) -> None:
@@ -142,7 +157,7 @@ class _Interpreter:
             else:
                 values[letter] = float(digits)
         modes = self.named = self._take(commands) if commands else {}
-        if not values.keys() <= {"X", "Y", "Z"}:
+        if not values.keys() <= {"X", self.second, "Z"}:
             self._values(values)
         if "cutter" in modes:
             self._change(values)
@@ -150,7 +165,7 @@ class _Interpreter:
             self._turn()
         if "dwell" in modes:
             self._wait(values)
-        if "X" in values or "Y" in values or "Z" in values or modes.get("motion") in ("G2", "G3"):
+        if values.keys() & AXES or modes.get("motion") in ("G2", "G3"):
             self._move(values)
         elif ARC_WORDS & values.keys():
             raise refused(36, self.where, " ".join(sorted(ARC_WORDS & values.keys())))
@@ -165,7 +180,7 @@ class _Interpreter:
         for command in commands:
             value = float(command[1:])
             key = f"{command[0]}{value:g}"
-            if key in NOT_FOLLOWED:
+            if key in NOT_FOLLOWED - self.dialect.codes:
                 raise InputError(
                     f"{key} is not followed here: where it leads is not in the program",
                     expected="moves in the XY plane from one work zero, in mm or inches a minute",
@@ -176,6 +191,9 @@ class _Interpreter:
             if GROUP[key] in named:
                 raise refused(21, self.where, f"{named[GROUP[key]]} and {key}")
             named[GROUP[key]] = key
+        before = self.modes.get("feed mode", "G94")
+        if named.get("feed mode", before) != before:
+            self.feed = 0.0  # what counted mm does not count moves
         self.modes.update(named)
         self.named = named
         if "units" in named:
@@ -187,6 +205,7 @@ class _Interpreter:
         unknown = values.keys() - VALUES
         if "G43" not in self.dialect.codes:
             unknown |= values.keys() & {"H"}
+        unknown |= values.keys() & ({"Y", "A"} - {self.second})
         if unknown:
             raise refused(20, self.where, " ".join(sorted(unknown)))
         for letter in values.keys() & set("FNPST"):
@@ -202,7 +221,7 @@ class _Interpreter:
         if unused:
             raise refused(36, self.where, " ".join(sorted(unused)))
         if "F" in values:
-            self.feed = values["F"] * self.scale
+            self.feed = values["F"] * (1.0 if self.inverse else self.scale)
         if "S" in values:
             self.speed = values["S"]
         if "T" in values:
@@ -245,8 +264,20 @@ class _Interpreter:
             )
         if motion != "G0" and self.feed == 0:
             raise refused(22, self.where, motion)
+        if self.inverse and motion != "G0" and "F" not in values:
+            raise InputError(
+                "a move by inverse time without its own F",
+                expected="F in its line",
+                where=self.where,
+            )
         target = self._target(values)
         if motion in ("G2", "G3"):
+            if self.inverse or self.second == "A":
+                raise InputError(
+                    "an arc with a rotary axis, or by inverse time, is not followed here",
+                    expected="G0 and G1",
+                    where=self.where,
+                )
             self._arc(values, target, motion == "G2")
             return
         if "I" in values or "J" in values or "R" in values:
@@ -254,21 +285,31 @@ class _Interpreter:
         if not self.placed:
             self._place(target, motion)
             return
-        self._record(target, inf if motion == "G0" else self.feed)
+        self._record(target, inf if motion == "G0" else self._rate(target, self.feed))
+
+    @property
+    def inverse(self) -> bool:
+        """Whether F counts moves a minute (G93), not mm."""
+        return self.modes.get("feed mode") == "G93"
+
+    def _rate(self, target: tuple[float, float, float], feed: float) -> float:
+        """Give the feed of a move, mm/min; of one that goes nowhere, as if it went 1 mm."""
+        return feed * (dist(self.at, target) or 1.0) if self.inverse else feed
 
     def _target(self, values: dict[str, float]) -> tuple[float, float, float]:
         x, y, z = self.at
-        scale = self.scale
+        scale, second = self.scale, self.second
+        across = self.per_degree or scale
         if self.modes["distance"] == "G90":
             return (
                 values["X"] * scale if "X" in values else x,
-                values["Y"] * scale if "Y" in values else y,
+                values[second] * across if second in values else y,
                 values["Z"] * scale if "Z" in values else z,
             )
-        step = [values.get(axis, 0.0) * scale for axis in "XYZ"]
+        x_step, z_step = (values.get(axis, 0.0) * scale for axis in "XZ")
         if not self.placed:
             raise InputError("a relative move from a place not known", where=self.where)
-        return x + step[0], y + step[1], z + step[2]
+        return x + x_step, y + values.get(second, 0.0) * across, z + z_step
 
     def _place(self, target: tuple[float, float, float], motion: str) -> None:
         """Approach from wherever the machine stands, until all axes are known."""

@@ -46,7 +46,7 @@ class Setup:
     @property
     def post(self) -> Post:
         """How programs are put into words."""
-        return Post(dialect(self.machine.dialect), self.units)
+        return Post(dialect(self.machine.dialect), self.units, self.stock.radius)
 
     def at(self, position: Position | None) -> "Setup":
         """Move the stock to a position; with none it stays."""

@@ -79,7 +79,7 @@ def simulate(
             found=f"{len(cutters)}",
         )
     paths = [program.on_panel(stock) for program in programs]
-    slab = Slab.over(lattice(grid, refine, _cut_box(paths, cutters, grid, stock)))
+    slab = Slab.over(lattice(grid, refine, _cut_box(paths, cutters, grid, stock)), stock)
     every, crashes = [], []
     for program, cutter, points in zip(programs, cutters, paths, strict=True):
         crashes += _rubs(slab, program, cutter, points)

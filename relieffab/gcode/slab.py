@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.sweep import BAND_ROWS, profile_numbers, profile_points, sweep
+from relieffab.gcode.swing import swing
 from relieffab.grid import Grid
 from relieffab.progress import Progress, silent
 from relieffab.stock import Stock
@@ -29,25 +30,28 @@ class Slab:
     heights : (rows + 1, cols + 1) ndarray of float32
         Of what is left, at the lattice's nodes, mm; 0 is the untouched face.
         Lowered by `cut`.
+    radius : float
+        Of the face of a round stock whose axis lies along X, mm; 0 where it is flat.
     """
 
     grid: Grid
     heights: NDArray[np.float32]
+    radius: float = 0.0
 
     @classmethod
     def whole(cls, grid: Grid, stock: Stock, *, refine: int = 1) -> "Slab":
         """Take an untouched stock, on a lattice made from a relief's grid."""
         box = np.array([[0.0, 0.0], [stock.width, stock.height]])
-        return cls.over(lattice(grid, refine, box))
+        return cls.over(lattice(grid, refine, box), stock)
 
     @classmethod
-    def over(cls, grid: Grid) -> "Slab":
+    def over(cls, grid: Grid, stock: Stock) -> "Slab":
         """Take an untouched stock on a lattice."""
-        return cls(grid, np.zeros(grid.node_shape, np.float32))
+        return cls(grid, np.zeros(grid.node_shape, np.float32), stock.radius)
 
     def copy(self) -> "Slab":
         """Return a slab of its own that is cut as far."""
-        return Slab(self.grid, self.heights.copy())
+        return Slab(self.grid, self.heights.copy(), self.radius)
 
     def cut(self, points: Floats, cutter: Cutter, progress: Progress = silent) -> Floats:
         """Make the moves of a path.
@@ -71,6 +75,7 @@ class Slab:
         """
         x, y = self.grid.origin
         local = np.column_stack([points[:, 0] - x, y - points[:, 1], points[:, 2]])
+        pitch, radius = self.grid.pitch, self.radius
         way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(local, axis=0), axis=1))])
         bands = -(-self.heights.shape[0] // BAND_ROWS)
         # Scattered, so that threads with a share of them each have as much to do.
@@ -79,7 +84,10 @@ class Slab:
         bites = np.zeros(len(points))
         for start in range(1, len(points), CHUNK):
             run = local[start - 1 : start + CHUNK]
-            found = sweep(self.heights, run, shape, form, self.grid.pitch, order)
+            if radius:
+                found = swing(self.heights, run, shape, form, pitch, radius, order)
+            else:
+                found = sweep(self.heights, run, shape, form, pitch, order)
             bites[start : start + CHUNK] = found[:, 1:].max(axis=0)
             progress("carving", float(way[min(start + CHUNK, len(way)) - 1]), float(way[-1]), "mm")
         return bites

@@ -163,7 +163,8 @@ def verify(
     places = [its.position for its in setups if its.position]
     seams = seams_of(places, cutters, carved.grid, np.where(figure, deviation, np.nan), tolerance)
     findings += seam_findings(seams, tolerance, LEAST_WITHIN)
-    findings += _missed(carved.grid, relief, deviation, _finisher(read, cutters), tolerance)
+    finisher, radius = _finisher(read, cutters), setup.stock.radius
+    findings += _missed(carved.grid, relief, deviation, finisher, tolerance, radius)
     return Verification(
         gouge_mm=gouge,
         excess_p99_mm=max(0.0, float(np.percentile(inside, 99))),
@@ -181,9 +182,9 @@ def verify(
 
 
 def _read(programs: Sequence[Program | str], setup: Setup) -> list[Program]:
-    dialect = setup.post.dialect
+    dialect, radius = setup.post.dialect, setup.stock.radius
     return [
-        read_program(program, name=f"program {k}", dialect=dialect)
+        read_program(program, name=f"program {k}", dialect=dialect, radius=radius)
         if isinstance(program, str)
         else program
         for k, program in enumerate(programs, 1)
@@ -252,14 +253,19 @@ def _finisher(programs: Sequence[Program], cutters: Sequence[Cutter]) -> Cutter:
 
 
 def _missed(
-    grid: Grid, relief: Relief, deviation: Singles, cutter: Cutter, tolerance: float
+    grid: Grid,
+    relief: Relief,
+    deviation: Singles,
+    cutter: Cutter,
+    tolerance: float,
+    radius: float,
 ) -> list[str]:
     """Report a patch larger than the cutter that it could have cut and did not."""
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
     rows, cols = relief.grid.node_shape
     excess = np.where(figure_nodes(relief, grid), deviation, 0.0)[top::refine, left::refine]
-    area = missed_patch(relief, excess[:rows, :cols], cutter, tolerance)
+    area = missed_patch(relief, excess[:rows, :cols], cutter, tolerance, radius)
     if area <= pi * cutter.radius**2:
         return []
     return [

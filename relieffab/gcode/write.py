@@ -70,7 +70,7 @@ def foretold(path: Toolpath, setup: Setup) -> Program:
 
 
 def _read(body: Iterable[str], setup: Setup) -> Program:
-    return read_program("\n".join(body), dialect=setup.post.dialect)
+    return read_program("\n".join(body), dialect=setup.post.dialect, radius=setup.stock.radius)
 
 
 def check_change(cutters: int, setup: Setup) -> None:
@@ -107,9 +107,11 @@ def _body(paths: Sequence[Toolpath], setup: Setup) -> Iterator[str]:
     yield f"{post.units_word} G90 {first}".rstrip()
     for line in rest:
         yield line.format(blend=post.blend())
+    if post.turns:
+        yield "G93"
     for number, path in enumerate(paths, 1):
         moves = moves_of(path, machine, setup.stock, post)
-        x, y, z = (post.number(k) for k in moves.steps[0].tolist())
+        x, y, z = moves.steps[0].tolist()
         if len(paths) > 1:
             yield f"M6 T{number}"
             if "G43" in post.dialect.codes:
@@ -118,12 +120,14 @@ def _body(paths: Sequence[Toolpath], setup: Setup) -> Iterator[str]:
         if post.dialect.rapid_feed:
             rates = machine.max_rate[2], min(machine.max_rate[:2])
             rapid = f" F{post.feed(rates[0])}", f" F{post.feed(rates[1])}"
-        yield f"G0 Z{z}{rapid[0]}"
+        yield f"G0 Z{post.number(z)}{rapid[0]}"
         yield f"M3 S{_spindle(path, machine)}"
         yield f"G4 P{SPIN_UP * post.dialect.dwell:g}"
-        yield f"G0 X{x} Y{y}{rapid[1]}"
+        yield f"G0 X{post.number(x)} {post.across(y)}{rapid[1]}"
         yield from lines(moves, post, machine)
         yield "M5"
+    if post.turns:
+        yield "G94"
     yield post.dialect.end
 
 

@@ -19,7 +19,7 @@ from relieffab.gcode.write import check_change
 from relieffab.grid import Grid
 from relieffab.job import solids, styles
 from relieffab.job.settings import Job
-from relieffab.job.stocks import machine_of, stock_of
+from relieffab.job.stocks import machine_of, milled_of, round_of, stock_of
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.svg import strokes_to_svg
 from relieffab.layers.make import layers_of
@@ -39,6 +39,7 @@ from relieffab.picture import (
     standing_picture,
 )
 from relieffab.progress import Progress, silent
+from relieffab.relief.laid import laid, laid_strokes
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.png import to_png
@@ -94,13 +95,15 @@ def carving_of(job: Job) -> Carving:
 def setup_of(job: Job, depth: float) -> Setup:
     """Return what the programs of a relief are written for, and judged by."""
     machine, material = machine_of(job), profiles.material(job.material)
-    return Setup(machine, material, stock_of(job), depth, job.units)
+    return Setup(machine, material, milled_of(job), depth, job.units)
 
 
 def positions_of(job: Job) -> tuple[Position | None, ...]:
     """Return how the stock lies, time after time; (None,) where it need not be moved."""
     if job.positions is None:
         return (None,)
+    if round_of(job) is not None:
+        raise InputError("only a flat panel is cut at several positions", where="positions")
     found = positions(
         stock_of(job),
         machine_of(job),
@@ -319,16 +322,18 @@ def plan_paths(
     marks: Marks | None = None,
 ) -> tuple[Planned, ...]:
     """Plan the toolpaths of a job, position after position."""
+    stock = milled_of(job)
+    milled, lines = laid(relief, stock), laid_strokes(strokes, stock)
     planned = [
         (
             position,
             plan(
-                relief,
-                strokes,
+                milled,
+                lines,
                 machine_of(job),
                 profiles.material(job.material),
                 cutters=cutters_of(job),
-                stock=stock_of(job),
+                stock=stock,
                 settings=cut_settings(job),
                 position=position,
                 marks=marks,

@@ -20,6 +20,7 @@ from relieffab.job.chain import Planned, setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
 from relieffab.progress import Progress, silent
+from relieffab.relief.laid import laid
 from relieffab.relief.model import Relief
 from relieffab.toolpath.path import Toolpath
 
@@ -40,7 +41,7 @@ def write(
         to judge the programs anywhere, whatever the profiles there say.
     """
     whole = setup_of(job, relief.depth)
-    slab = Slab.whole(relief.grid, whole.stock)
+    slab = Slab.whole(laid(relief, whole.stock).grid, whole.stock)
     places = []
     for position, paths in planned:
         setup = whole.at(position)
@@ -76,7 +77,8 @@ def _at_position(
         file = _prefix(setup) + name
         text = write_program(several, setup, slab, header=header)
         (folder / file).write_text(text, encoding="ascii", newline="\n")
-        program = read_program(text, name=file, dialect=setup.post.dialect)
+        radius = setup.stock.radius
+        program = read_program(text, name=file, dialect=setup.post.dialect, radius=radius)
         parts += [
             {
                 "file": file,

@@ -18,9 +18,10 @@ from relieffab.job.certificate import RELIEF, file_hash, program_names
 from relieffab.job.report import read_report
 from relieffab.job.settings import Job
 from relieffab.layers.shading import light_at
-from relieffab.machine import Machine, Material, Use
+from relieffab.machine import Machine, Material, Rotary, Use
 from relieffab.picture import deviation_map, png8, predicted_look
 from relieffab.progress import Progress, silent
+from relieffab.relief.laid import laid, upright
 from relieffab.relief.model import Relief
 from relieffab.relief.store import read_relief
 from relieffab.stock import Stock
@@ -44,8 +45,9 @@ def judge(
     """
     made = made_for(report, folder, relief.depth)
     programs = [made.read(folder / name) for name in program_names(report)]
+    milled = laid(relief, made.setup.stock)
     return verify(
-        programs, made.cutters, relief, made.setup, positions=made.positions, progress=progress
+        programs, made.cutters, milled, made.setup, positions=made.positions, progress=progress
     )
 
 
@@ -77,7 +79,8 @@ class MadeFor:
         if not path.is_file():
             raise InputError("a program of the job is missing", where=str(path))
         text = path.read_text(encoding="latin-1")
-        return read_program(text, name=path.name, dialect=self.setup.post.dialect)
+        stock, dialect = self.setup.stock, self.setup.post.dialect
+        return read_program(text, name=path.name, dialect=dialect, radius=stock.radius)
 
 
 def made_for(report: Mapping[str, Any], folder: Path, depth: float) -> MadeFor:
@@ -120,7 +123,7 @@ def _setup(report: Mapping[str, Any], depth: float) -> Setup:
         Use(**{**use, "machines": tuple(use["machines"])}) for use in material["use"]
     )
     return Setup(
-        Machine(**{**report["machine"], **_tuples(report["machine"])}),
+        _machine(report["machine"]),
         Material(**material),
         Stock.of(report["slab"]),
         depth,
@@ -128,10 +131,17 @@ def _setup(report: Mapping[str, Any], depth: float) -> Setup:
     )
 
 
-def _tuples(machine: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
-    return {
-        name: tuple(machine[name]) for name in ("travel", "max_rate", "acceleration", "spindle")
-    }
+def _machine(values: Mapping[str, Any]) -> Machine:
+    """Build a machine from what JSON holds of it."""
+    lists = ("travel", "max_rate", "acceleration", "spindle")
+    rotary = values.get("rotary")
+    return Machine(
+        **{
+            **values,
+            **{name: tuple(values[name]) for name in lists},
+            "rotary": rotary and Rotary(**rotary),
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -198,12 +208,27 @@ def verification_part(verdict: Verification, relief: Relief, more: Sequence[str]
     }
 
 
-def write_pictures(verdict: Verification, relief: Relief, job: Job, folder: Path) -> Part:
-    """Write the map of what is left and the predicted look; give their names."""
-    colours = deviation_map(verdict.deviation, verdict.figure, verdict.tolerance_mm)
+def write_pictures(
+    verdict: Verification, relief: Relief, stock: Stock, job: Job, folder: Path
+) -> Part:
+    """Write the map of what is left and the predicted look, upright; give their names.
+
+    Parameters
+    ----------
+    verdict : Verification
+    relief : Relief
+    stock : Stock
+        As it lies on the machine.
+    job : Job
+    folder : Path
+    """
+    deviation, figure = verdict.deviation, verdict.figure
+    if stock.radius:
+        deviation, figure = deviation.T, figure.T
+    colours = deviation_map(deviation, figure, verdict.tolerance_mm)
     (folder / DEVIATION).write_bytes(png8(colours))
-    carved, light = carved_relief(verdict, relief), light_at(*job.light)
-    look = predicted_look(relief, carved, light, texture=job.texture)
+    carved = upright(carved_relief(verdict, laid(relief, stock)), stock)
+    look = predicted_look(relief, carved, light_at(*job.light), texture=job.texture)
     (folder / LOOK).write_bytes(png8(look))
     return {"deviation": DEVIATION, "look": LOOK}
 

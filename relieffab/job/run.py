@@ -126,12 +126,13 @@ def _prove(
     """
     with _timed(report, "programs", progress):
         report.update(programs.write(planned, relief, job, report, folder))
+    stock = chain.setup_of(job, relief.depth).stock
     with _timed(report, "verify", progress):
         verdict = proof.judge(relief, report, folder, progress)
         report["verification"] = {
             **proof.verification_part(verdict, relief),
             "certificate": certificate.certificate(report, folder),
-            "pictures": proof.write_pictures(verdict, relief, job, folder),
+            "pictures": proof.write_pictures(verdict, relief, stock, job, folder),
         }
     if not verdict.ok:
         raise FindingsError(

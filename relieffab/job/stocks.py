@@ -10,7 +10,7 @@ from relieffab import profiles
 from relieffab.errors import InputError
 from relieffab.fittings import Frame, Hole, Keyhole
 from relieffab.job.settings import Job
-from relieffab.machine import Machine
+from relieffab.machine import Machine, turning
 from relieffab.panel.blank import Drafting, drafting
 from relieffab.panel.cad import CadUnavailableError
 from relieffab.panel.formats import FRAME, STOCK
@@ -81,9 +81,41 @@ def stock_of(job: Job) -> Stock:
     )
 
 
+def milled_of(job: Job) -> Stock:
+    """Return the stock as it lies on the machine: a round one along X, its face laid out flat.
+
+    Raises
+    ------
+    InputError
+        If it is a curved board, of which no programs are made.
+    """
+    bent, flat = round_of(job), stock_of(job)
+    if bent is None:
+        return flat
+    if isinstance(bent, Curved):
+        raise InputError(
+            "programs for a curved board are not made",
+            where="curved",
+            hint="relieffab relief, then relieffab panel, for the solid",
+        )
+    size = (flat.height, flat.width, flat.thickness)
+    radius = bent.diameter / 2
+    return Stock.zeroed(size, job.work_zero, job.work_zero_z, radius=radius)
+
+
 def machine_of(job: Job) -> Machine:
-    """Return the machine of a job; over a raised frame it keeps higher."""
+    """Return the machine of a job; over a raised frame it keeps higher.
+
+    For a round stock its Y is the rotary axis, in mm on the face.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it has no room.
+    """
     machine = profiles.machine(job.machine)
+    if isinstance(bent := round_of(job), Round):
+        return turning(machine, bent.diameter / 2)
     return replace(machine, safe_height=machine.safe_height + stock_of(job).top)
 
 

@@ -1,9 +1,9 @@
 """Flat solids bent round an axis: edges halved until their chords follow, and the error measured.
 
 A straight edge of the flat panel becomes a spiral; what is drawn instead is its chord.
-Where the edge goes round by du and rises by dh, the chord is off by du² / 8r where it is
-level, and by at most dh² / 4r where it is steep, measured towards the axis.  Within a
-triangle the error of a quadratic is at most 4/3 of the largest on its edges.
+Where the edge goes round by du and rises by dh, the chord's middle is nearer to the axis
+by du² / 8r, and off along the way round by du dh / 4r.  Within a triangle the error of
+a quadratic is at most 4/3 of the largest on its edges.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ INSIDE = 4 / 3 * 1.05  # of the largest error on a triangle's edges; and for hig
 
 
 def sags(steps: Floats, radius: float) -> Floats:
-    """Bound how far chords are from the edges they stand for, towards the axis, mm.
+    """Bound how far chords are from the edges they stand for, square to the surface, mm.
 
     Parameters
     ----------
@@ -29,10 +29,8 @@ def sags(steps: Floats, radius: float) -> Floats:
     radius : float
         The least at which they lie, mm.
     """
-    along, across, rise = steps.T
-    # What stands upright on the flat panel points at the axis, and stays straight.
-    upright = (along == 0) & (across == 0)
-    return np.where(upright, 0.0, along**2 / (8 * radius) + rise**2 / (4 * radius))
+    along, _, rise = steps.T
+    return (along**2 / 2 + np.abs(along * rise)) / (4 * radius)  # type: ignore[no-any-return]
 
 
 def refine(vertices: Floats, faces: Ints, radius: float, sag: float) -> tuple[Floats, Ints]:
@@ -85,10 +83,11 @@ def _split(faces: Ints, middle: Ints) -> Ints:
 
 
 def bent_error(vertices: Floats, faces: Ints, relief: Relief, bend: Bend) -> float:
-    """Bound the largest distance of a bent solid from its relief, towards the axis, mm.
+    """Bound the largest distance of a bent solid from its relief, mm.
 
-    At every point of its face and the cut's floor: the triangles as they would be on
-    the flat panel, which is exact, and by how much their chords differ from those.
+    At every point of its face and the cut's floor: that of the triangles as they would be
+    on the flat panel, towards the axis, and by how much their chords differ from those,
+    square to the surface.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from relieffab.round import Curved, Round, check_depth, check_on, chord
 from relieffab.stock import Stock
 
 # Shares of the tolerance: for the triangles on the flat panel, and for chords.
-FLAT, CHORD = 0.7, 0.2
+FLAT, CHORD = 0.6, 0.15
 BEYOND = 1.0  # mm that a bore is cut further than the ends
 SEAM = 1e-6  # mm by which the left and right edge of a relief all round may differ
 
@@ -103,7 +103,7 @@ def make_round(
         On the flat panel that is wrapped round the stock.
     stock : Round or Curved
     tolerance : float, optional
-        Largest distance between solid and relief at any point, towards the axis, mm.
+        Largest distance between solid and relief at any point, mm, as `bent_error` has it.
     progress : Progress, optional
 
     Returns

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import ndimage
 from scipy.spatial import ConvexHull
 
 from relieffab.grid import Grid
@@ -30,6 +31,7 @@ GROUND = (178, 172, 163)  # what is behind, 0 to 255
 FILL = 0.92  # share of the picture that the solid takes, one way or the other
 DEEPEST = 8.0  # mm below the uncut face that shadows are worked out for
 SIDE, FROM_SIDE = (1.0, 0.2, 0.8), 0.3  # a second light, so that no side is black
+SMOOTH = 10.0  # pixels over which the uncut face's facets are evened out
 SHARPER = 2  # pixels drawn for one shown, each way
 
 
@@ -113,8 +115,11 @@ def _shaded(solid: _Seen, grid: Grid, light: ArrayLike, texture: Texture) -> NDA
     heights, seen = nodes_over(solid, grid)
     hull = ConvexHull(solid.vertices).simplices
     around, _ = nodes_over(_Seen(solid.vertices, hull), grid)
-    # Only what is sunk casts shadows: the solid itself is as far from the eye as it is wide.
-    sunk = np.maximum(np.where(seen, heights - around, 0.0), -DEEPEST).astype(np.float32)
+    # Only what is sunk casts shadows, as deep as it is square to the uncut face.
+    upright = pixel_normals(np.pad(around, ((0, 1), (0, 1)), mode="edge"), grid.pitch)[..., 2]
+    upright = ndimage.gaussian_filter(upright, SMOOTH)  # facets would show
+    sunk = np.where(seen, np.maximum((heights - around) * upright, -DEEPEST), 0.0)
+    sunk = sunk.astype(np.float32)
     open_sky = sky(sunk, grid.pitch)
     edge = np.where(seen, heights, heights[seen].min())
     normals = pixel_normals(np.pad(edge, ((0, 1), (0, 1)), mode="edge"), grid.pitch)

@@ -64,15 +64,19 @@ class Bench:
     def rough(self, cutter: Cutter, stepdown: float) -> list[Pass]:
         """Clear most of the stock, level by level."""
         work = rough_work(self.relief, cutter, stepdown, self.settings.allowance)
-        parts = rough_passes(
-            work, reverse=self.settings.milling == "conventional", position=self.position
-        )
+        parts = rough_passes(work, reverse=self._turns, position=self.position)
         for part in parts:
             tips = np.concatenate(
                 [np.zeros((0, 3)), *(_dense(run, work.step) for run in part.runs)]
             )
             self.left = remains.after(self.left, self.relief.grid, cutter, tips)
         return parts
+
+    @property
+    def _turns(self) -> bool:
+        """Whether ways are turned: for conventional milling, or climb milling mirrored."""
+        conventional = self.settings.milling == "conventional"
+        return conventional != bool(self.relief.radius)
 
     def finish(self, cutter: Cutter, stepdown: float) -> list[Pass]:
         """Cut the surface: rows, steep walls along their heights, creases."""
@@ -101,7 +105,7 @@ class Bench:
     def _surface(self, cutter: Cutter, stepdown: float, least: float) -> list[Pass]:
         settings, parts = self.settings, list[Pass]()
         one_way = settings.milling != "either"
-        turn = settings.milling == "conventional"
+        turn = one_way and self._turns
         for angle in (0.0, 90.0)[: 2 if settings.crossed else 1]:
             work = self._work(cutter, stepdown, least)
             graded = finish_rows(work, settings.angle + angle, settings.stepover, settings.scallop)
@@ -119,7 +123,7 @@ class Bench:
         # The skin makes every bump wider than this, so that none passes between two samples.
         narrow = cutter.points[1][0] if cutter.shape == "form" else cutter.arc_end
         step = min(grid.pitch / 2, 0.2 * max(narrow, 0.1))
-        stock = Terrain.over(grid, self.left)
+        stock = Terrain.over(grid, self.left, self.relief.radius)
         tolerance = self.settings.tolerance
         if self._ground is None or self._ground.cutter != cutter:
             self._ground = Ground(self.relief, cutter, SKIN)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
 from relieffab.relief.model import Relief
-from relieffab.toolpath import drop
+from relieffab.toolpath import drop, polar
 from relieffab.toolpath.lattice import drop_lattice
 from relieffab.toolpath.outline import R1, outline_of, smooth_below
 
@@ -31,23 +31,26 @@ class Terrain:
         At nodes, mm, none above 0; the face at 0 continues beyond the grid.
     cell_top, block_top : ndarray
         Highest corner of each cell, and of each block of cells.
+    radius : float
+        Of a round stock's face, whose axis lies along X, mm; 0 where it is flat.
     """
 
     grid: Grid
     heights: Floats
     cell_top: Floats
     block_top: Floats
+    radius: float = 0.0
 
     @classmethod
-    def over(cls, grid: Grid, heights: Floats) -> "Terrain":
+    def over(cls, grid: Grid, heights: Floats, radius: float = 0.0) -> "Terrain":
         """Prepare heights on a grid's nodes."""
         field = np.ascontiguousarray(heights, dtype=np.float64)
-        return cls(grid, field, *drop.tops(field))
+        return cls(grid, field, *drop.tops(field), radius)
 
     @classmethod
-    def of(cls, relief: Relief) -> "Terrain":
+    def of(cls, relief: Relief, radius: float = 0.0) -> "Terrain":
         """Prepare a relief."""
-        return cls.over(relief.grid, relief.heights)
+        return cls.over(relief.grid, relief.heights, radius)
 
     def within(self, low: tuple[float, float], high: tuple[float, float], more: float) -> "Terrain":
         """Keep what lies between two corners or up to `more` beyond, mm; round it the face."""
@@ -57,7 +60,7 @@ class Terrain:
         i, j = max(0, floor(top)), max(0, floor(left))
         rows, cols = min(grid.rows, ceil(bottom)) - i, min(grid.cols, ceil(right)) - j
         part = Grid(rows, cols, grid.pitch, grid.to_xy(float(i), float(j)))
-        return Terrain.over(part, self.heights[i : i + rows + 1, j : j + cols + 1])
+        return Terrain.over(part, self.heights[i : i + rows + 1, j : j + cols + 1], self.radius)
 
 
 def tip_heights(
@@ -82,6 +85,9 @@ def tip_heights(
     row, col = terrain.grid.to_index(np.asarray(x, float), np.asarray(y, float))
     pitch = terrain.grid.pitch
     row, col = np.broadcast_arrays(row, col)
+    if terrain.radius:
+        tips = _round_tips(terrain, cutter, np.ravel(col), np.ravel(row), allowance)
+        return tips.reshape(row.shape)
     top = float(terrain.block_top.max())
     tips = np.full(row.shape, -np.inf)
     for outline, up in _bodies(terrain, cutter, allowance):
@@ -97,6 +103,22 @@ def tip_heights(
             outline,
             out.reshape(-1),
         )
+        np.maximum(tips, out - up, out=tips)
+    return tips
+
+
+def _round_tips(
+    terrain: Terrain, cutter: Cutter, col: Floats, row: Floats, allowance: float
+) -> Floats:
+    """Drop a cutter on a round stock, at fractional nodes."""
+    h, pitch, radius = terrain.heights, terrain.grid.pitch, terrain.radius
+    low = float(h.min())
+    kept = allowance + polar.bend_error(h, pitch, radius)
+    tips = np.full(len(row), -np.inf)
+    for outline, up in _bodies(terrain, cutter, kept):
+        out = np.empty(len(row))
+        x, y = col * pitch, row * pitch
+        polar.drop_round(h, terrain.cell_top, low, pitch, radius, x, y, outline, out)
         np.maximum(tips, out - up, out=tips)
     return tips
 
@@ -166,6 +188,8 @@ def tip_surface(
     (places.rows, places.count) ndarray
         Heights of the tip, mm: those of `tip_heights`.
     """
+    if terrain.radius:
+        return tip_heights(terrain, cutter, *places.xy(), allowance=allowance)
     row, col = terrain.grid.to_index(*places.start)
     pitch, turn = terrain.grid.pitch, radians(places.angle)
     # Rows of the grid go down where Y goes up.

@@ -90,7 +90,8 @@ def plan(
     stepover = settings.stepover
     stepover = scallop_stepover(cutters[1], settings.scallop) if stepover is None else stepover
     used = (*cutters, marks.cutter) if marks else cutters
-    check(relief, machine, used, stock or _bare_stock(relief), stepover, position)
+    slab = stock or _bare_stock(relief)
+    check(relief, machine, used, slab, stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
     uses = [cutting(cutter, material, machine) for cutter in used]
     paths: list[Toolpath] = []
@@ -98,11 +99,11 @@ def plan(
     def tell() -> None:
         progress("toolpaths", len(paths), len(used), "programs")
 
-    surface = marks.smooth if marks else relief
-    bench = Bench(_part(Terrain.of(surface), position, used), settings, position, tell)
+    terrain = Terrain.of(marks.smooth if marks else relief, slab.radius)
+    bench = Bench(_part(terrain, position, used), settings, position, tell)
     stages: list[Stage] = [bench.rough, bench.finish, partial(bench.lines, strokes=strokes)]
     if marks:
-        marked = _part(Terrain.of(relief), position, used)
+        marked = _part(Terrain.of(relief, slab.radius), position, used)
         stages.append(partial(bench.marks, marked=marked, lines=marks.lines))
     for name, cutter, use, stage in zip(NAMES, used, uses, stages, strict=False):
         tell()

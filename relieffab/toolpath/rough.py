@@ -30,7 +30,7 @@ def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: floa
     stepdown, allowance : float
         mm.
     """
-    slab = Terrain.over(relief.grid, np.zeros(relief.grid.node_shape))
+    slab = Terrain.over(relief.grid, np.zeros(relief.grid.node_shape), relief.radius)
     step = min(relief.grid.pitch, allowance)
     ground = Ground(relief, cutter, allowance)
     return Work(ground, slab, stepdown, _TOLERANCE, _LEAST, step)

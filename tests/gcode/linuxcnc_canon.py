@@ -31,7 +31,7 @@ class Canon:
         return False
 
     def get_axis_mask(self):
-        return 7
+        return 15  # X, Y, Z and A
 
     def get_external_length_units(self):
         return 1 / 25.4
@@ -42,11 +42,11 @@ class Canon:
     def get_tool(self, *_):
         return (1,) + (0.0,) * 12 + (0,)
 
-    def straight_traverse(self, x, y, z, *_):
-        self.moves.append(["rapid", self.line, x, y, z])
+    def straight_traverse(self, x, y, z, a, *_):
+        self.moves.append(["rapid", self.line, x, y, z, a])
 
-    def straight_feed(self, x, y, z, *_):
-        self.moves.append(["feed", self.line, x, y, z])
+    def straight_feed(self, x, y, z, a, *_):
+        self.moves.append(["feed", self.line, x, y, z, a])
 
     def arc_feed(self, x, y, centre_x, centre_y, turns, z, *_):
         self.moves.append(["arc", self.line, x, y, z, centre_x, centre_y, turns])

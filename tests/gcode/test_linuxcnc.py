@@ -184,3 +184,27 @@ def test_outlines_and_probes(units, tmp_path):
     same_path(outline_program(setup), tmp_path, DIALECTS["linuxcnc"])
     moves, fault = interpreted(probe_program(setup, 19.0), tmp_path)
     assert fault == "" and len(moves) == 2
+
+
+@pytest.mark.parametrize("units", ["mm", "in"])
+@pytest.mark.parametrize("dialect", ["fluidnc", "grblhal", "linuxcnc", "mach3"])
+def test_programs_that_turn_the_work(dialect, units, tmp_path):
+    radius = 20.0
+    flat = setup_of(dialect, units)
+    stock = Stock(120.0, 90.0, 10.0, work_zero=(60.0, 45.0, -radius), radius=radius)
+    setup = Setup(flat.machine, flat.material, stock, 4.0, units)
+    slab = Slab.whole(Grid(90, 120, 1.0, (0.0, 90.0)), stock)
+    text = write_program(scattered(7), setup, slab)
+    for whole in (text, outline_program(setup)):
+        moves, fault = interpreted(whole, tmp_path)
+        assert fault == ""
+        read = read_program(whole, dialect=DIALECTS[dialect], radius=radius)
+        known = [move for move in moves if move[1] in set(read.line.tolist())]
+        assert [move[1] for move in known] == read.line.tolist()
+        x, _, z, a = (
+            np.array(column) for column in zip(*[move[2:] for move in known], strict=True)
+        )
+        found = np.column_stack([x * 25.4, -np.radians(a) * radius, z * 25.4])
+        assert np.abs(found - read.points).max() < 1e-3
+    back = read_program(text, dialect=DIALECTS[dialect], radius=radius)
+    assert (back.feed[~back.rapid] <= 600.0 * (1 + 1e-9)).all()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from relieffab.errors import InputError
+from relieffab.gcode.dialect import DIALECTS, GRBL
 from relieffab.gcode.read import read_program
 
 HEAD = "G21 G90 G17\nG0 Z5\nX0 Y0\nM3 S500\n"
@@ -159,3 +160,47 @@ def test_a_line_is_named_by_its_number():
         run("G1 F100 X1\nX2\nQ1")
     with pytest.raises(InputError, match=r"job\.nc line 6"):
         run("X1\nX2 (!)")
+
+
+TURNING = "G21 G90 G17 G54\nG93\nG0 Z5\nX0 A0\n{}\nM30\n"
+HAL, RADIUS = DIALECTS["grblhal"], 90 / np.pi  # half a degree is a quarter of a mm
+
+
+def turned(body, dialect=HAL, radius=RADIUS):
+    return read_program(TURNING.format(body), dialect=dialect, radius=radius)
+
+
+def test_a_rotary_axis_goes_round_the_face_and_f_counts_moves():
+    read = turned("G1 Z-1 F100\nX3 A-8 F60\nA-8.5F1\nG0Z5")
+    np.testing.assert_allclose(read.points[1:, 1], [0, 4, 4.25, 4.25])
+    # 6 mm a hundred times a minute, 5 mm once a second, a quarter of a mm in a minute.
+    np.testing.assert_allclose(read.feed[1:], [600, 300, 0.25, np.inf])
+    same = turned("g1 z-1 f100\n x3 a-8 f60\n a-8.5 f1\n g0 z5")
+    np.testing.assert_array_equal(same.points, read.points)
+    np.testing.assert_array_equal(same.feed, read.feed)
+
+
+def test_steps_of_a_rotary_axis_add_up():
+    read = turned("G91\nG1 A-2 F10\nA-2 F10")
+    np.testing.assert_allclose(read.points[1:, 1], [1, 2])
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("G1 X1 F60\nX2", "without its own F"),
+        ("G1 X1 Y2 F60", "unsupported"),
+        ("G2 X1 A2 I1 F60", "is not followed"),
+        ("G94\nG1 X1", "without a feed"),
+    ],
+)
+def test_what_turns_the_work_in_no_known_way(body, words):
+    with pytest.raises(InputError, match=words):
+        turned(body)
+
+
+def test_where_nothing_turns_a_is_not_known():
+    with pytest.raises(InputError, match="unsupported"):
+        turned("G1 A1 F60", radius=0.0)
+    with pytest.raises(InputError, match="is not followed here"):
+        turned("G1 X1 F60", dialect=GRBL)

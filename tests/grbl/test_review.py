@@ -1,8 +1,10 @@
 import pytest
 
+from relieffab.errors import InputError
 from relieffab.grbl.controller import Controller
 from relieffab.grbl.messages import Note, Setting
 from relieffab.grbl.program import prepare
+from relieffab.grbl.resume import entry
 from relieffab.grbl.review import misfits, review
 
 
@@ -70,3 +72,14 @@ def test_a_spindle_asked_for_too_much_is_noted():
 
 def test_a_zero_never_set_is_noted_on_a_homed_machine():
     assert "work zero" in review(prepare("G0X-1"), controller(_22=1)).notes[0]
+
+
+def test_a_rotary_axis_is_for_controllers_that_have_one():
+    program = prepare("G21G90G93\nG0Z5\nX0A0\nG1X1A5F60\nG0Z5\nM30")
+    assert [text[:14] for text in review(program, controller()).refusals] == ["line 3: A is e"]
+    hal = controller()
+    hal.hal = True
+    assert review(program, hal).refusals == ()
+    # Where the work is turned to is not followed: such a job begins at its beginning.
+    with pytest.raises(InputError, match="no position is named on every axis"):
+        entry(program, number=5)

@@ -3,8 +3,10 @@ import pytest
 from relieffab import profiles
 from relieffab.errors import InputError
 from relieffab.fittings import Edge, Frame, Hole, Keyhole
+from relieffab.job import chain, solids
 from relieffab.job.settings import default_job
-from relieffab.job.stocks import machine_of, stock_of
+from relieffab.job.stocks import machine_of, milled_of, round_of, stock_of
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 
@@ -51,3 +53,64 @@ def test_over_a_raised_frame_the_machine_keeps_higher():
 def test_what_makes_no_sense_is_refused(given, word):
     with pytest.raises(InputError, match=word):
         stock_of(default_job(**given))
+
+
+def test_a_round_stock_is_laid_out_flat_and_lies_along_x():
+    job = default_job(round="80mm", bore="60mm", size="120x90mm", machine="altmill-4x4-rotary")
+    assert round_of(job) == Round(120.0, 90.0, 80.0, 60.0)
+    assert stock_of(job) == Stock(120.0, 90.0, 10.0)
+    assert milled_of(job) == Stock(90.0, 120.0, 10.0, radius=40.0)
+    assert machine_of(job).travel[1] > 80 * 3.14
+    axis = default_job(round="80mm", work_zero_z="bottom")
+    assert milled_of(axis).work_zero == (0.0, 0.0, -40.0)
+
+
+def test_a_curved_board_has_a_solid_and_no_programs():
+    job = default_job(curved="300mm")
+    assert round_of(job) == Curved(120.0, 90.0, 12.0, 300.0)
+    with pytest.raises(InputError, match="curved board are not made"):
+        milled_of(job)
+
+
+@pytest.mark.parametrize(
+    ("given", "word"),
+    [
+        ({"bore": "60mm"}, "no round"),
+        ({"round": "80mm", "floor": "5mm"}, "no bore"),
+        ({"round": "80mm", "curved": "300mm"}, "not both"),
+        ({"round": "80mm", "frame": "8mm"}, "only a flat panel can have frame"),
+        ({"round": "80mm", "outline": "round"}, "only a flat panel can have outline"),
+        ({"curved": "300mm", "holes": "5x5mm"}, "only a flat panel can have holes"),
+        ({"round": "30mm"}, "wider than the way round"),
+    ],
+)
+def test_round_stocks_that_cannot_be(given, word):
+    with pytest.raises(InputError, match=word):
+        round_of(default_job(**given))
+
+
+@pytest.mark.parametrize(
+    ("given", "word"),
+    [
+        ({"solid": "plaque"}, "only a flat panel has a plaque"),
+        ({"bed": "50x50mm"}, "only a flat panel comes in parts"),
+        ({"bore": "75mm"}, "through the stock"),
+    ],
+)
+def test_solids_that_a_round_stock_has_not(given, word):
+    with pytest.raises(InputError, match=word):
+        solids.check(default_job(round="80mm", **given))
+
+
+@pytest.mark.parametrize(
+    ("given", "word"),
+    [
+        ({"machine": "3018-prover"}, "no rotary axis"),
+        ({"machine": "3018-prover-rotary"}, "too thick"),
+        ({"machine": "altmill-4x4-rotary", "positions": "index"}, "several positions"),
+        ({"machine": "altmill-4x4-rotary", "bore": "20mm", "depth": "28mm"}, "too short"),
+    ],
+)
+def test_programs_that_cannot_be_are_refused_before_any_work(given, word):
+    with pytest.raises(InputError, match=word):
+        chain.check(default_job(round="80mm", **given))

@@ -1,0 +1,46 @@
+"""A relief as it lies on a machine that turns it: its Y along X, its X round the axis.
+
+Rows and columns change places, which keeps every triangle what it is; seen from outside
+that is a mirror image, and `Stock.to_work` mirrors it back.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from relieffab.grid import Grid
+from relieffab.layers.model import Stroke
+from relieffab.relief.model import Relief
+from relieffab.stock import Stock
+
+
+def laid(relief: Relief, stock: Stock) -> Relief:
+    """Lay a relief on a round stock; on a flat one it stays as it is.
+
+    Parameters
+    ----------
+    relief : Relief
+        On the flat panel.
+    stock : Stock
+        As wide as the panel is high, and as high as that is wide.
+    """
+    return _swapped(relief, stock.width, stock.height) if stock.radius else relief
+
+
+def upright(relief: Relief, stock: Stock) -> Relief:
+    """Undo `laid`."""
+    return _swapped(relief, stock.height, stock.width) if stock.radius else relief
+
+
+def _swapped(relief: Relief, width: float, height: float) -> Relief:
+    """Mirror a relief so that X grows against its Y, and Y against its X."""
+    grid, (x, y) = relief.grid, relief.grid.origin
+    swapped = Grid(grid.cols, grid.rows, grid.pitch, (width - y, height - x))
+    return Relief(swapped, relief.heights.T.copy(), relief.mask.T.copy(), relief.depth)
+
+
+def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:
+    """Lay strokes on a stock as `laid` lays their relief."""
+    if not stock.radius:
+        return strokes
+    corner = (stock.width, stock.height)
+    return [replace(stroke, points=corner - stroke.points[:, ::-1]) for stroke in strokes]

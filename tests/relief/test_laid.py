@@ -1,0 +1,57 @@
+import numpy as np
+import pytest
+
+from relieffab.grid import Grid
+from relieffab.layers.model import Stroke
+from relieffab.relief.laid import laid, laid_strokes, upright
+from relieffab.relief.model import Relief
+from relieffab.round import Round
+from relieffab.stock import Stock
+
+STOCK = Stock(10.0, 20.0, 5.0, work_zero=(2.0, 3.0, 0.0), radius=8.0)
+
+
+@pytest.fixture
+def relief():
+    heights = -np.random.default_rng(1).random((5, 8))
+    return Relief(Grid(4, 7, 0.5, (3.0, 6.0)), heights, np.ones((4, 7), bool), 1.0)
+
+
+def test_every_point_of_the_surface_is_where_x_and_y_change_places(relief):
+    milled = laid(relief, STOCK)
+    x, y = np.random.default_rng(2).uniform([3, 4], [6.5, 6], (50, 2)).T
+    # The triangles are the same ones: between nodes, too.
+    found = milled.height_at(STOCK.width - y, STOCK.height - x)
+    np.testing.assert_allclose(found, relief.height_at(x, y), atol=1e-12)
+
+
+def test_upright_undoes_it(relief):
+    back = upright(laid(relief, STOCK), STOCK)
+    assert back.grid == relief.grid
+    np.testing.assert_array_equal(back.heights, relief.heights)
+
+
+def test_on_a_flat_stock_nothing_happens(relief):
+    flat = Stock(10.0, 20.0, 5.0)
+    assert laid(relief, flat) is relief and upright(relief, flat) is relief
+    strokes = [Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))]
+    assert laid_strokes(strokes, flat) is strokes
+
+
+def test_strokes_go_where_their_relief_goes():
+    (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], STOCK)
+    np.testing.assert_array_equal(found.points, [[8.0, 19.0]])
+
+
+def test_programs_carve_what_the_solid_shows_and_not_its_mirror_image():
+    # Points on the flat panel; where the solid has them; where a program sends the cutter.
+    panel = np.array([[9.0, 4.0, 0.0], [13.0, 4.0, 0.0], [9.0, 8.0, 0.0], [9.0, 4.0, -1.0]])
+    solid = Round(20.0, 10.0, 16.0).bend.bent(panel)
+    milled = np.column_stack([10.0 - panel[:, 1], 20.0 - panel[:, 0], panel[:, 2]])
+    x, y, z = STOCK.to_work(milled).T
+    a = -y / 8.0  # A turns the cutter about X: from Z to -Y
+    cut = np.column_stack([x, -(8.0 + z) * np.sin(a), (8.0 + z) * np.cos(a)])
+    chirality = [np.linalg.det(points[1:] - points[0]) for points in (solid, cut)]
+    assert chirality[0] == pytest.approx(chirality[1])
+    one, other = (np.linalg.norm(points[:, None] - points[None], axis=2) for points in (solid, cut))
+    np.testing.assert_allclose(one, other)
