@@ -39,7 +39,7 @@ from relieffab.picture import (
     standing_picture,
 )
 from relieffab.progress import Progress, silent
-from relieffab.relief.laid import laid, laid_strokes
+from relieffab.relief.laid import laid, laid_marks, laid_strokes
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.png import to_png
@@ -336,7 +336,7 @@ def plan_paths(
                 stock=stock,
                 settings=cut_settings(job),
                 position=position,
-                marks=marks,
+                marks=laid_marks(marks, stock) if marks else None,
                 progress=progress,
             ),
         )

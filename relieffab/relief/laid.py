@@ -10,6 +10,7 @@ from dataclasses import replace
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
 from relieffab.relief.model import Relief
+from relieffab.relief.style.model import Marks
 from relieffab.stock import Stock
 
 
@@ -44,3 +45,12 @@ def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:
         return strokes
     corner = (stock.width, stock.height)
     return [replace(stroke, points=corner - stroke.points[:, ::-1]) for stroke in strokes]
+
+
+def laid_marks(marks: Marks, stock: Stock) -> Marks:
+    """Lay marks on a stock as `laid` lays the relief that bears them."""
+    if not stock.radius:
+        return marks
+    corner = (stock.width, stock.height)
+    lines = tuple(corner - line[:, ::-1] for line in marks.lines)
+    return replace(marks, smooth=laid(marks.smooth, stock), lines=lines)

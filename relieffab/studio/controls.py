@@ -100,10 +100,12 @@ _GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
         "draft": ("Draft", Range(0, 20, 0.5, "deg")),
         "bed": ("Printer's bed", None),
         "clearance": ("Clearance", Range(0, 1, 0.05)),
+        "texture": ("Pictures in", ("stone", "wood")),
+        "light": ("Light of the pictures", None),
     },
 }
 OFFERED = tuple(name for group in _GROUPS.values() for name in group)
-"""Settings that the page may choose: all but the model and what no job leaves."""
+"""Settings that the page may choose."""
 
 
 def controls() -> list[dict[str, Any]]:

@@ -18,6 +18,9 @@ LONGEST = 500
 """Letters of a setting."""
 
 
+_APART = ("model", "paper")  # opened by itself; of templates alone
+
+
 @dataclass(frozen=True)
 class Ask:
     """What a person looks at: a model and the settings for it."""
@@ -36,7 +39,7 @@ class Session:
     """
 
     def __init__(self, chosen: Mapping[str, Chosen]) -> None:
-        self.texts = {name: one.text for name, one in chosen.items() if name in controls.OFFERED}
+        self.texts = _offered(chosen)
         self.model: Model | None = None
         self.preview = Preview()
         self.fine = Preview(FINE, whole=True)
@@ -116,6 +119,25 @@ def _check_setting(name: str, text: str) -> None:
     except InputError as fault:
         cause = fault.__cause__ if isinstance(fault.__cause__, InputError) else fault
         raise InputError(cause.message, **{**cause.parts, "where": name}) from fault
+
+
+def _offered(chosen: Mapping[str, Chosen]) -> dict[str, str]:
+    """Take what the page can show of the settings, and refuse what it would leave out.
+
+    Raises
+    ------
+    InputError
+        If a job would come out other than it was asked for.
+    """
+    for name, one in chosen.items():
+        known = name in controls.OFFERED or name in _APART
+        if not known and one.origin != "default":
+            raise InputError(
+                f"the studio cannot show {name.replace('_', '-')} yet",
+                where=one.origin,
+                hint="leave it out here; relieffab make takes it",
+            )
+    return {name: one.text for name, one in chosen.items() if name in controls.OFFERED}
 
 
 def _quoted(text: str) -> str:

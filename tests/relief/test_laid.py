@@ -1,10 +1,12 @@
 import numpy as np
 import pytest
 
+from relieffab import profiles
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
-from relieffab.relief.laid import laid, laid_strokes, upright
+from relieffab.relief.laid import laid, laid_marks, laid_strokes, upright
 from relieffab.relief.model import Relief
+from relieffab.relief.style.model import Marks
 from relieffab.round import Round
 from relieffab.stock import Stock
 
@@ -41,6 +43,14 @@ def test_on_a_flat_stock_nothing_happens(relief):
 def test_strokes_go_where_their_relief_goes():
     (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], STOCK)
     np.testing.assert_array_equal(found.points, [[8.0, 19.0]])
+
+
+def test_marks_go_where_their_relief_goes(relief):
+    marks = Marks(profiles.cutter("vee-60"), relief, (np.array([[1.0, 2.0], [3.0, 2.0]]),))
+    found = laid_marks(marks, STOCK)
+    np.testing.assert_array_equal(found.lines[0], [[8.0, 19.0], [8.0, 17.0]])
+    np.testing.assert_array_equal(found.smooth.heights, laid(relief, STOCK).heights)
+    assert laid_marks(marks, Stock(10.0, 20.0, 5.0)) is marks
 
 
 def test_programs_carve_what_the_solid_shows_and_not_its_mirror_image():

@@ -117,6 +117,15 @@ def test_which_way_is_up_is_the_models_unless_it_is_said(session, opened):
     assert session.settle({"up": "z"}).job.up == "z"
 
 
-def test_all_settings_but_the_model_and_the_paper_are_offered():
-    assert set(TABLE) - set(controls.OFFERED) == {"model", "paper"}
+OF_PICTURES = {"text", "image", "image_depth", "mask"}
+ROUND = {"round", "bore", "floor", "curved"}
+STYLED = {"style", "mark_spacing", "mark_depth", "mark_direction", "mark_cutter", "ground"}
+
+
+def test_what_the_page_cannot_show_is_refused_before_it_opens():
+    left_out = set(TABLE) - set(controls.OFFERED) - {"model", "paper"}
+    assert left_out == OF_PICTURES | ROUND | STYLED
     assert len(set(controls.OFFERED)) == len(controls.OFFERED)
+    with pytest.raises(InputError, match="cannot show mark-depth") as refused:
+        Session(resolve([("flag", {"mark_depth": "0.2mm"})]))
+    assert refused.value.parts["where"] == "flag"
