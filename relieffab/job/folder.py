@@ -2,8 +2,8 @@
 
 import contextlib
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Iterator, Sequence
 from itertools import chain
 from pathlib import Path
@@ -92,8 +92,9 @@ def finished_together(
     """
     folder = folder.resolve()
     home = next(path for path in (folder, *folder.parents) if path.is_dir())
-    scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=home))
+    scratch = home / f".{folder.name}-{secrets.token_hex(4)}"
     try:
+        scratch.mkdir(mode=0o700)  # in here: a stop may come as soon as it is there
         yield scratch
         for path in [path for name in (last, *stale) for path in folder.glob(name)]:
             path.unlink(missing_ok=True)
