@@ -52,6 +52,19 @@ def test_values_differ_per_axis_where_the_source_does(own):
     assert profiles.machine("x-carve-1000").acceleration == (500, 500, 50)
 
 
+@pytest.mark.parametrize("name", ["../machines/mine", "../../elsewhere", "sub/mine"])
+def test_a_name_leads_nowhere_else(own, tmp_path, name):
+    text = 'inherits = "3018-prover"'
+    own("machines", "mine", text)
+    own("machines/sub", "mine", text)
+    (tmp_path / "elsewhere.toml").write_text(text, encoding="utf-8")
+    assert profiles.machine("mine").name == "mine"
+    with pytest.raises(InputError, match="no machine"):
+        profiles.machine(name)
+    with pytest.raises(InputError, match="no machine"):
+        profiles.machine(str(tmp_path / "elsewhere"))
+
+
 def test_stones_are_marked_as_unverified(own):
     for name in ("slate", "marble", "limestone", "granite"):
         assert not profiles.material(name).verified

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from relieffab import profiles
-from relieffab.gcode.estimate import estimate, motion_seconds, pace
+from relieffab.gcode.estimate import estimate, motion_ends, motion_seconds, move_ends, pace
 from relieffab.gcode.read import read_program
 from relieffab.grbl.program import prepare
 from relieffab.grbl.simulator.machine import SimulatedGrbl
@@ -92,6 +92,22 @@ def test_dwells_stop_the_machine():
     took = motion_seconds(points, np.full(3, 600.0), machine(), dwell=wait)
     assert took == pytest.approx(2 * 2.1 + 3.75)
     assert motion_seconds(points[:1], np.full(1, 600.0), machine(), dwell=wait[:2]) == 3.0
+
+
+def test_each_move_ends_when_a_trapezoid_says():
+    # From rest to rest: 2.1 s each; a point given twice takes no time.
+    points = np.array([[0, 0, 0], [20, 0, 0], [20, 0, 0], [40, 0, 0]], float)
+    wait = np.array([3.0, 0.0, 0.0, 0.5, 0.25])
+    ends = motion_ends(points, np.full(4, 600.0), machine(), dwell=wait)
+    np.testing.assert_allclose(ends, [3.0, 5.1, 5.1, 7.7])
+    assert motion_seconds(points, np.full(4, 600.0), machine(), dwell=wait) == pytest.approx(7.95)
+
+
+def test_the_last_move_of_a_program_ends_with_it():
+    program = read_program("G21 G90\nG0 Z5\nX0 Y0\nG4 P2\nG1 X20 F600\nY9\nX3\nM30")
+    ends = move_ends(program, machine())
+    assert (np.diff(ends) >= 0).all()
+    assert ends[-1] == pytest.approx(estimate(program, machine()))
 
 
 def test_a_program():

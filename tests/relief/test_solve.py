@@ -11,6 +11,7 @@ from relieffab.relief.fit import fit
 from relieffab.relief.make import make_relief
 from relieffab.relief.model import Relief, to_nodes
 from relieffab.relief.multigrid.conjugate import solve
+from relieffab.relief.solve import refitted
 from relieffab.relief.targets import Carving, Fit, terms_of
 
 
@@ -192,6 +193,19 @@ def test_a_solution_is_gone_on_from(layers):
     assert np.abs(warm.heights - cold.heights).max() < 0.05
     _, same = make_relief(layers, changed, start=again, tolerance=1e-4)
     assert same.iterations == 0
+
+
+def test_a_start_refitted_comes_to_what_nothing_comes_to(layers):
+    _, shallow = make_relief(layers, Carving(depth=1.5))
+    deep = Carving(depth=3.0)
+    cold, _ = make_relief(layers, deep, tolerance=1e-3)
+    start = refitted(shallow, layers, deep)
+    warm, solution = make_relief(layers, deep, start=start, tolerance=1e-3)
+    assert solution.converged
+    assert np.abs(warm.heights - cold.heights).max() < 0.01 * 3.0
+    # Its own fit is for half the depth, and would stay far from it.
+    stale, _ = make_relief(layers, deep, start=shallow, tolerance=1e-3)
+    assert np.abs(stale.heights - cold.heights).max() > 0.3 * 3.0
 
 
 def test_how_it_went_is_told(layers):

@@ -107,6 +107,20 @@ def test_a_finer_stepover_leaves_less(planned):
     assert left[0] < 0.8 * left[1]
 
 
+def test_planning_is_cancelled_within_a_cutters_work():
+    told = []
+
+    def cancel(stage, done, total, unit=""):
+        told.append(done)
+        if told.count(1) == 2:
+            raise KeyboardInterrupt
+
+    machine, material = profiles.machine("3018-prover"), profiles.material("softwood")
+    with pytest.raises(KeyboardInterrupt):
+        plan(figure(), strokes(), machine, material, progress=cancel)
+    assert told[-2:] == [1, 1]
+
+
 def test_a_relief_too_shallow_for_any_cut_is_refused():
     heights = np.zeros(GRID.node_shape)
     heights[50:60, 50:60] = -0.005
