@@ -5,6 +5,6 @@
 - Depth: `bands` takes the steps out of coarse greys, `scale` gives it its length,
   `steps` finds slopes that respect its jumps; `normalmap` and `integrate` go from
   normals to depth; `inflate`, `light` and `shape` from one photograph.
-- Lines: `edges` finds them, `vector` makes strokes of them.
+- Lines: `edges` finds them, `vector` follows them; a drawing's own are its `ink`.
 - Out: `make` puts the layers together.
 """

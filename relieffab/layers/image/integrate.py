@@ -3,7 +3,8 @@
 Normal equations of sum |grad z - g|² over neighbouring pixels of the figure, solved by
 conjugate gradients; their preconditioner is the same equation on the whole rectangle,
 which a cosine transform solves (Frankot and Chellappa 1988 for slopes, Ghiglia and
-Romero 1994 for the mask and the iteration).
+Romero 1994 for the mask and the iteration).  Heights of reliefs, on nodes and within
+bounds, have a solver of their own, a room further on.
 """
 
 import numpy as np
