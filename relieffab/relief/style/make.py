@@ -14,6 +14,7 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.relief.groove import inked
 from relieffab.relief.model import Relief, inner_nodes, nodes_of, pixel_slopes
+from relieffab.relief.style.contact import axes, leaning
 from relieffab.relief.style.field import fixed_field, form_field
 from relieffab.relief.style.hatch import darkness
 from relieffab.relief.style.model import Marks, Style, mark_width
@@ -22,7 +23,7 @@ from relieffab.relief.style.peck import UNEVEN, pecks
 from relieffab.relief.style.scatter import scatter
 from relieffab.relief.style.streamlines import Spacing, streamlines
 from relieffab.relief.style.strokes import SHORTEST, strokes
-from relieffab.relief.style.texture import Stroke, textured
+from relieffab.relief.style.texture import EVEN, Stroke, textured
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -58,17 +59,26 @@ def _field(layers: Layers, style: Style, clear: Bools) -> Floats:
     return form_field(layers, whole, around=style.chisel.around)
 
 
+def _sampled(image: Floats, places: Floats) -> Floats:
+    return ndimage.map_coordinates(image, places.T, order=1, mode="nearest")  # type: ignore[no-any-return]
+
+
 def _held(
-    found: Sequence[Stroke], room: Floats, pitch: float, cutter: Cutter, dark: Floats | None
+    found: Sequence[Stroke], room: Floats, lean: Floats, cutter: Cutter, pitch: float
 ) -> list[Stroke]:
-    """Make strokes shallower beside lines, that none reaches into one, and by the tone."""
+    """Set strokes by the cutter's axis, shallower beside lines, that none reaches into one.
+
+    Between the place meant and the axis something else may be what the tip touches
+    first: there must be room, too.
+    """
     out = []
     for places, deep in found:
-        at = ndimage.map_coordinates(room, places.T, order=1, mode="nearest") * pitch
-        held = np.minimum(deep, cutter.profile(at))
-        if dark is not None:
-            held *= ndimage.map_coordinates(dark, places.T, order=1, mode="nearest")
-        out += _runs(places, held)
+        axis = axes(places, lean, cutter.tip_radius / pitch)
+        way = (places, 0.5 * (places + axis), axis)
+        least = np.min([_sampled(room, there) for there in way], axis=0) * pitch
+        # Pixels' steps along a line would be steps in the stroke beside it.
+        least = ndimage.gaussian_filter1d(least, EVEN, mode="nearest")
+        out += _runs(axis, np.minimum(deep, cutter.profile(least)))
     return out
 
 
@@ -86,7 +96,7 @@ def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]
     Returns
     -------
     list of tuple of (k, 2) and (k,) ndarray
-        Rows and columns of nodes, and depths in mm.
+        Rows and columns of the cutter's axis, in nodes, and depths in mm.
     """
     chisel, pitch, chance = style.chisel, smooth.grid.pitch, np.random.default_rng(SEED)
     clear = clear_of_lines(smooth, layers)
@@ -100,8 +110,10 @@ def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]
     least = _least_room(style.tool)
     lines = streamlines(field, room, Spacing(apart, SHORTEST * apart, least / pitch), patch)
     found = strokes(lines, chisel, apart, chance)
-    dark = darkness(layers, chisel.spacing) if chisel.tone else None
-    return _held(found, room, pitch, style.tool, dark)
+    if chisel.tone:
+        dark = darkness(layers, chisel.spacing)
+        found = [(places, deep * _sampled(dark, places)) for places, deep in found]
+    return _held(found, room, leaning(smooth.heights, pitch, clear), style.tool, pitch)
 
 
 def _least_room(cutter: Cutter) -> float:

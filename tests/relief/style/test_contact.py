@@ -1,0 +1,38 @@
+import numpy as np
+import pytest
+
+from relieffab.relief.reach import ball, lowest_tips
+from relieffab.relief.style.contact import axes, leaning
+
+PITCH = 0.1
+
+
+def test_on_a_dome_the_axis_stands_further_out_by_the_tips_share():
+    """Radii R and S, touching at s from the middle: the axis stands at s (1 + R/S)."""
+    row, col = np.indices((121, 121)) * PITCH - 6.0
+    heights = np.sqrt(15.0**2 - row**2 - col**2) - 15.5
+    lean = leaning(heights, PITCH, np.ones(heights.shape, bool))
+    places = np.array([[60.0, 60.0], [60.0, 90.0], [40.0, 75.0]])
+    moved = axes(places, lean, 2.0 / PITCH)
+    np.testing.assert_allclose(moved - 60, (places - 60) * (1 + 2.0 / 15.0), atol=0.2)
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.5, 1.0])
+def test_there_the_lowest_tip_touches_the_place(slope):
+    radius = 1.0
+    row = np.indices((161, 161))[0] * PITCH
+    heights = slope * row - 20.0
+    lean = leaning(heights, PITCH, np.ones(heights.shape, bool))
+    (axis,) = axes(np.array([[80.0, 80.0]]), lean, radius / PITCH)
+    tip = lowest_tips(heights, PITCH, ball(radius))[round(axis[0]), 80]
+    # The middle is one radius above the tip, and one from the place touched.
+    middle = np.array([axis[0] * PITCH, tip + radius])
+    assert np.hypot(*(middle - [8.0, heights[80, 80]])) == pytest.approx(radius, abs=0.05)
+
+
+def test_walls_do_not_lean_on_what_is_beside_them():
+    heights = np.full((60, 60), -1.0)
+    heights[:, 30:] = -3.0
+    clear = np.ones(heights.shape, bool)
+    clear[:, 29:32] = False
+    assert np.abs(leaning(heights, PITCH, clear)[:, clear]).max() == 0
