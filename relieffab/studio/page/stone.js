@@ -4,7 +4,7 @@ import { Color, DoubleSide, ShaderMaterial, Vector3 } from "./three.js";
 
 // Linear-light colours come from sRGB ones; grain is its strength and its stretch along X.
 const LOOKS = {
-  limestone: { colour: "#dcc8a6", grain: 0.05, along: 1 },
+  limestone: { colour: "#e3d4b9", grain: 0.045, along: 1 },
   marble: { colour: "#e6e3de", grain: 0.03, along: 2.5 },
   granite: { colour: "#a9a29b", grain: 0.16, along: 1 },
   slate: { colour: "#6e757b", grain: 0.05, along: 4 },

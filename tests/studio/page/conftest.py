@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from relieffab.job.table import TABLE
+from relieffab.studio.controls import OFFERED
 from relieffab.studio.frames import unpack
 
 CHROMIUM = next(
@@ -28,7 +30,9 @@ ARGUMENTS = [
     "--js-flags=--expose-gc",
     "--enable-precise-memory-info",
 ]
-WINDOW = {"width": 1100, "height": 720}
+WINDOW = {"width": 900, "height": 620}
+BEGUN = {"size": "40x30mm", "resolution": "160x120", "line_length": "2mm", "material": "foam"}
+BEGUN |= {"up": "y"}  # of a file of triangles alone it would have to be guessed
 PATIENCE = 240.0  # seconds: a studio that has never run compiles first
 
 
@@ -131,7 +135,7 @@ class Studio:
         self.output = output
         self.process = subprocess.Popen(
             [sys.executable, "-m", "relieffab", "studio", "--no-browser", "-o", str(output)]
-            + ["--size", "40x30mm", "--resolution", "160x120", "--line-length", "2mm"],
+            + [f"--{name.replace('_', '-')}={text}" for name, text in BEGUN.items()],
             stdout=subprocess.PIPE,
             text=True,
             cwd=output.parent,
@@ -177,8 +181,9 @@ def person(browser, studio):
 @pytest.fixture
 def carver(person, model):
     """Somebody with the scarab before them, settings as they are by default."""
-    person.opens(model)
-    default = {"up": "y", "azimuth": "", "elevation": "", "roll": "0deg", "depth": "3mm"}
-    person.sees(f"studio.store.change({json.dumps(default)})")
+    if person.page.inner_text("#model-name") != model.name:
+        person.opens(model)
+    defaults = {name: setting.default for name, setting in TABLE.items() if name in OFFERED}
+    person.sees(f"studio.store.change({json.dumps({**defaults, **BEGUN})})")
     person.calm()
     return person

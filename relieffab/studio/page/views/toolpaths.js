@@ -131,7 +131,7 @@ function thread(kinds, total) {
       void main() {
         int kind = int(about.y + 0.5);
         float age = (now - about.x) / fresh;
-        float seen = age < 0.0 ? 0.0 : mix(0.95, 0.4, clamp(age, 0.0, 1.0));
+        float seen = age < 0.0 ? 0.0 : mix(0.95, 0.2, clamp(age, 0.0, 1.0));
         vColour = vec4(palette[kind], seen * shown[kind]);
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
