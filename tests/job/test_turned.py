@@ -34,7 +34,7 @@ def test_it_leaves_a_solid_and_programs_that_are_proved(folder):
     assert report["verification"]["ok"] and report["verification"]["gouge_mm"] <= 0.005
     assert report["slab"]["radius"] == 12.0
     assert report["machine"]["rotary"]["diameter"] == 150
-    text = (folder / "01-rough.nc").read_text()
+    text = (folder / "02-finish.nc").read_text()
     assert "\nG93\n" in text and "round, 24 mm thick, 20 mm along X" in " ".join(text.split())
     assert "turns about X" in (folder / "report.html").read_text()
 
