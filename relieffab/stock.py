@@ -105,6 +105,11 @@ class Stock:
         return (-1.0, -1.0, 1.0) if self.turned else (1.0, 1.0, 1.0)
 
     @property
+    def all_round(self) -> bool:
+        """Whether it is a round one whose near and far edge are the same."""
+        return self.radius > 0 and self.height > 2 * np.pi * self.radius - 1e-6
+
+    @property
     def plain(self) -> bool:
         """Whether it is a rectangular slab and nothing more."""
         return self.outline.plain and not (self.frame or self.holes or self.keyholes)

@@ -102,7 +102,9 @@ class Limits:
         x, y, z = points.T
         below = z < -SLACK
         size = self.stock.width, self.stock.height
-        outside = (x < -SLACK) | (x > size[0] + SLACK) | (y < -SLACK) | (y > size[1] + SLACK)
+        outside = (x < -SLACK) | (x > size[0] + SLACK)
+        if not self.stock.all_round:
+            outside |= (y < -SLACK) | (y > size[1] + SLACK)
         # A move is below the face outside the stock if either of its ends is.
         low = below & outside
         low[1:] |= below[:-1] & outside[1:]

@@ -62,7 +62,7 @@ def turned_to(vertices: Floats, turn: float, elevation: float = ELEVATION) -> Fl
 def standing_picture(
     solid: TriangleMesh,
     *,
-    width: int = 1600,
+    width: int = 1400,
     turns: Sequence[float] = TURNS,
     light: ArrayLike = LIGHT,
     texture: Texture = "stone",
@@ -119,12 +119,14 @@ def _shaded(solid: _Seen, grid: Grid, light: ArrayLike, texture: Texture) -> NDA
     upright = pixel_normals(np.pad(around, ((0, 1), (0, 1)), mode="edge"), grid.pitch)[..., 2]
     upright = ndimage.gaussian_filter(upright, SMOOTH)  # facets would show
     sunk = np.where(seen, np.maximum((heights - around) * upright, -DEEPEST), 0.0)
-    sunk = sunk.astype(np.float32)
-    open_sky = sky(sunk, grid.pitch)
+    sunk = sunk.astype(np.float32)[::SHARPER, ::SHARPER]
+    finer = np.ones((SHARPER, SHARPER), np.float32)
+    open_sky = np.kron(sky(sunk, grid.pitch * SHARPER), finer)
     edge = np.where(seen, heights, heights[seen].min())
     normals = pixel_normals(np.pad(edge, ((0, 1), (0, 1)), mode="edge"), grid.pitch)
     key, fill = (unit_light(one) for one in (light, SIDE))
-    grey = KEY * np.maximum(normals @ key, 0.0) * lit(sunk, grid.pitch, key)
+    shown = np.kron(lit(sunk, grid.pitch * SHARPER, key), finer)
+    grey = KEY * np.maximum(normals @ key, 0.0) * shown
     grey += FROM_SIDE * np.maximum(normals @ fill, 0.0) + SKY * open_sky
     linear = np.clip(grey, 0, 1)[..., None] * plain_colour(texture)
     coloured = 255 * linear ** (1 / GAMMA)

@@ -10,6 +10,7 @@ from relieffab.cutter import Cutter
 from relieffab.errors import InputError
 from relieffab.gcode.aids import outline_program
 from relieffab.gcode.dialect import DIALECTS
+from relieffab.gcode.ease import eased
 from relieffab.gcode.estimate import estimate
 from relieffab.gcode.post import Post
 from relieffab.gcode.read import read_program
@@ -122,6 +123,27 @@ def test_a_changed_program_is_found_out(paths, change, words):
     verdict = judged(texts, paths, setup)
     found = " ".join(verdict.findings)
     assert verdict.ok if words is None else words in found
+
+
+def test_a_band_all_round_is_cut_across_its_seam():
+    radius, count, rows = 8.0, 144, 36
+    pitch = 2 * np.pi * radius / count
+    v, u = np.arange(rows + 1) * pitch, np.arange(count + 1) * pitch
+    side = np.clip(np.minimum(v, v[-1] - v) - 2.0, 0, 1)[:, None]
+    heights = -1.2 * side * (0.75 + 0.25 * np.cos(5 * u / radius + 1.0))
+    mask = np.broadcast_to(np.abs(v[:-1] - v[-1] / 2)[:, None] < v[-1] / 2 - 1.5, (rows, count))
+    band = Relief(Grid(rows, count, pitch, (0.0, rows * pitch)), heights, mask.copy(), 1.2)
+    stock = Stock(rows * pitch, 2 * np.pi * radius, radius, radius=radius)
+    setup = replace(setup_of("grblhal"), stock=stock)
+    setup = replace(setup, machine=turning(setup.machine, radius), depth=1.2)
+    milled = laid(band, stock)
+    found = plan(milled, [], setup.machine, WOOD, cutters=CUTTERS, stock=stock)
+    slab = Slab.whole(milled.grid, stock)
+    texts = [write_program(eased(path, setup, slab), setup, slab) for path in found]
+    verdict = verify(texts, [path.cutter for path in found], milled, setup, refine=1)
+    assert verdict.ok, verdict.findings
+    seam = np.abs(np.where(verdict.figure, verdict.deviation, 0.0))[[0, 1, 2, -3, -2, -1]]
+    assert 0 < seam.max() < 0.08
 
 
 def test_what_the_flat_picture_allows_gouges_a_thin_column():
