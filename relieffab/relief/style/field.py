@@ -11,6 +11,7 @@ from relieffab.layers.model import Layers
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Complexes = NDArray[np.complex128]
 
 COARSE = 0.3  # mm: the field is found on cells about so wide
 MOST = 500  # of them along the figure's longer side
@@ -58,7 +59,7 @@ def bending(layers: Layers, clear: Bools) -> tuple[Floats, Floats]:
     return whole.astype(float), tensor * whole
 
 
-def sharpest(tensor: Floats) -> Floats:
+def sharpest(tensor: Floats) -> Complexes:
     """Direction of the largest bending as a complex number of twice its angle.
 
     Its length is 1 on a cylinder, and falls to 0 on spheres, saddles and planes,
@@ -87,7 +88,7 @@ def _laplacian(open_: Bools) -> sparse.csr_matrix:
     return sparse.csgraph.laplacian(joined.tocsr())
 
 
-def smoothest(wanted: Floats, open_: Bools, calm: float) -> Floats:
+def smoothest(wanted: Complexes, open_: Bools, calm: float) -> Complexes:
     """Smooth directions where they are weak, and keep them where they are strong.
 
     Minimises sum |w| |u - w/|w||² + calm² |grad u|² over the open cells, as
@@ -110,19 +111,19 @@ def smoothest(wanted: Floats, open_: Bools, calm: float) -> Floats:
     """
     angle, pull = HABIT
     habit = np.exp(2j * np.radians(angle))
+    field = np.full(open_.shape, habit)
+    if not open_.any():
+        return field
     asked = wanted[open_]
     weight = sparse.diags(np.abs(asked) + pull)
     found = spsolve((weight + calm**2 * _laplacian(open_)).tocsc(), asked + pull * habit)
-    field = np.full(open_.shape, habit)
     length = np.abs(found)
     field[open_] = np.where(length > 1e-9, found / np.maximum(length, 1e-9), habit)
-    if open_.any():
-        near = ndimage.distance_transform_edt(~open_, return_indices=True)[1]
-        field = field[tuple(near)]
-    return field
+    nearest = ndimage.distance_transform_edt(~open_, return_distances=False, return_indices=True)
+    return field[tuple(nearest)]
 
 
-def form_field(layers: Layers, clear: Bools, *, around: bool) -> Floats:
+def form_field(layers: Layers, clear: Bools, *, around: bool) -> Complexes:
     """Directions that follow the form.
 
     Parameters
@@ -151,16 +152,16 @@ def form_field(layers: Layers, clear: Bools, *, around: bool) -> Floats:
     return _at_nodes(field if around else -field, cells.factor, layers.grid.node_shape)
 
 
-def _at_nodes(field: Floats, factor: int, shape: tuple[int, int]) -> Floats:
+def _at_nodes(field: Complexes, factor: int, shape: tuple[int, int]) -> Complexes:
     """Interpolate a field of cells at the nodes."""
     at = np.meshgrid(*((np.arange(n) / factor - 0.5) for n in shape), indexing="ij")
     parts = [
         ndimage.map_coordinates(p, at, order=1, mode="nearest") for p in (field.real, field.imag)
     ]
-    joined: Floats = parts[0] + 1j * parts[1]
+    joined: Complexes = parts[0] + 1j * parts[1]
     return joined / np.maximum(np.abs(joined), 1e-9)
 
 
-def fixed_field(angle: float, shape: tuple[int, int]) -> Floats:
+def fixed_field(angle: float, shape: tuple[int, int]) -> Complexes:
     """One direction everywhere, in degrees from X towards Y, as `form_field` gives it."""
     return np.full(shape, np.exp(2j * np.radians(angle)))

@@ -28,6 +28,7 @@ from relieffab.relief.style.texture import EVEN, Stroke, textured
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
+Complexes = NDArray[np.complex128]
 
 STEEP = 1.2  # slope of walls and occlusions: no stroke climbs them
 LINE = 0.05  # of a line's depth, where its groove begins
@@ -52,7 +53,7 @@ def _patches(shape: tuple[int, int], width: float, chance: np.random.Generator) 
     return nearest
 
 
-def _field(layers: Layers, style: Style, clear: Bools) -> Floats:
+def _field(layers: Layers, style: Style, clear: Bools) -> Complexes:
     if style.direction is not None:
         return fixed_field(style.direction, clear.shape)
     whole = clear[:-1, :-1] & clear[:-1, 1:] & clear[1:, :-1] & clear[1:, 1:]

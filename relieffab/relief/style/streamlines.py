@@ -9,6 +9,7 @@ from relieffab.compiled import kernel
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Complexes = NDArray[np.complex128]
 
 TEST = 0.8  # of the separation: a line ends where it comes so close to another
 STEPS = 5  # of a line within a separation
@@ -162,7 +163,7 @@ def _lay(field, room, patch, seeds, spacing, places):  # type: ignore[no-untyped
 
 
 def streamlines(
-    field: Floats, room: Floats, spacing: Spacing, patch: Ints | None = None
+    field: Complexes, room: Floats, spacing: Spacing, patch: Ints | None = None
 ) -> list[Floats]:
     """Cover an area with lines along a field, no two nearer than a share of their separation.
 
@@ -189,7 +190,8 @@ def streamlines(
     rows, cols = np.nonzero(room >= max(spacing.room, 1e-9))
     order = np.lexsort((cols, rows, -np.round(room[rows, cols])))
     seeds = np.column_stack([rows, cols])[order].astype(float)
-    most = int(3 * STEPS / TEST * len(seeds) / spacing.apart**2) + 1000
+    # No two lines share a pixel, and within one a line has no more places than this.
+    most = int(2 * STEPS / spacing.apart * len(seeds)) + 1000
     places = np.zeros((most, 4))
     used, count = _lay(field, room, patch, seeds, tuple(map(float, spacing)), places)
     places = places[:used]

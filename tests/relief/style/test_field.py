@@ -93,5 +93,13 @@ def test_the_smoothest_field_solves_its_equation():
     np.testing.assert_allclose(smoothest(wanted, np.ones((4, 5), bool), calm), want, atol=1e-9)
 
 
+def test_where_all_is_closed_there_is_the_habit():
+    nowhere = np.zeros((3, 4), bool)
+    np.testing.assert_allclose(angles(smoothest(np.ones((3, 4), complex), nowhere, 2.0)), HABIT[0])
+    alone = nowhere.copy()
+    alone[1, 1] = True
+    np.testing.assert_allclose(off(smoothest(np.ones((3, 4), complex), alone, 2.0), 0.0), 0, atol=1)
+
+
 def test_a_fixed_direction_is_the_same_everywhere():
     np.testing.assert_allclose(angles(fixed_field(30.0, (3, 4))), 30.0)
