@@ -11,6 +11,7 @@ from relieffab.grid import Grid
 from relieffab.job.certificate import check_certificate
 from relieffab.job.proof import carved_relief, verification_part, write_pictures
 from relieffab.relief.model import Relief
+from relieffab.stock import Stock
 
 
 def judged(rows=30, cols=40, grown=2):
@@ -54,7 +55,7 @@ def test_the_surface_that_is_lit_lies_where_the_relief_lies():
 
 def test_pictures(tmp_path):
     relief, verdict = judged()
-    assert write_pictures(verdict, relief, tmp_path) == {
+    assert write_pictures(verdict, relief, Stock(20, 15, 5), tmp_path) == {
         "deviation": "deviation.png",
         "look": "look.png",
     }
