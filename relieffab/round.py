@@ -1,7 +1,7 @@
 """Round stocks: a column, a ring or a cup, and a board whose face is gently curved."""
 
 from dataclasses import dataclass
-from math import asin, inf, pi, sin
+from math import asin, ceil, inf, pi, sin
 
 from relieffab.bend import Bend
 from relieffab.errors import InputError
@@ -46,10 +46,10 @@ class Round:
         if self.width > around + ROUNDING:
             raise InputError(
                 "the panel is wider than the way round the face",
-                expected=f"at most {around:.2f} mm at a diameter of {self.diameter:g} mm",
+                expected=f"at most {around:.3f} mm at a diameter of {self.diameter:g} mm",
                 found=f"{self.width:g} mm",
                 where="round",
-                hint=f"a narrower --size, or --round {self.width / pi:.4g}mm or more",
+                hint=f"a narrower --size, or --round {ceil(self.width / pi * 100) / 100}mm or more",
             )
         if not 0 <= self.bore < self.diameter:
             raise InputError(

@@ -4,7 +4,7 @@ import pytest
 
 from relieffab import profiles
 from relieffab.errors import InputError
-from relieffab.machine import cutting
+from relieffab.machine import Rotary, cutting
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def own(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("kind", "read", "count"),
     [
-        ("machines", profiles.machine, 11),
+        ("machines", profiles.machine, 13),
         ("cutters", profiles.cutter, 16),
         ("materials", profiles.material, 8),
     ],
@@ -112,6 +112,14 @@ def test_units_are_read(own):
     assert (cutter.diameter, cutter.feed, cutter.flute_length) == (6.35, 600, 22)
     own("machines", "mine", 'inherits = "minimill"\ntravel = ["12cm", 120, "60mm"]')
     assert profiles.machine("mine").travel == (120, 120, 60)
+
+
+def test_a_rotary_axis_is_read(own):
+    assert profiles.machine("altmill-4x4").rotary is None
+    assert profiles.machine("altmill-4x4-rotary").rotary == Rotary(7200, 360, 150)
+    own("machines", "mine", 'inherits = "minimill"\n[rotary]\nmax_rat = 3600\ndiameter = 50')
+    with pytest.raises(InputError, match=r"rotary.max_rate.*rotary.acceleration"):
+        profiles.machine("mine")
 
 
 def test_a_form_cutter_is_read_with_its_points(own):

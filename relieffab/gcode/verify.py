@@ -104,6 +104,9 @@ def verify(
     asked at the relief's own nodes: what stands between them, thinner than a pixel,
     is no load on a cutter.
 
+    On a round stock the lattice lies on its face, and heights are radii less the face's.
+    Ways round are measured there, where they are longest: no gouge seems less than it is.
+
     Parameters
     ----------
     programs : sequence of Program or str

@@ -12,6 +12,7 @@ from relieffab.job.certificate import check_certificate
 from relieffab.job.proof import carved_relief, verification_part, write_pictures
 from relieffab.job.settings import default_job
 from relieffab.relief.model import Relief
+from relieffab.stock import Stock
 
 
 def judged(rows=30, cols=40, grown=2):
@@ -55,7 +56,7 @@ def test_the_surface_that_is_lit_lies_where_the_relief_lies():
 
 def test_pictures(tmp_path):
     relief, verdict = judged()
-    assert write_pictures(verdict, relief, default_job(), tmp_path) == {
+    assert write_pictures(verdict, relief, Stock(20, 15, 5), default_job(), tmp_path) == {
         "deviation": "deviation.png",
         "look": "look.png",
     }

@@ -94,11 +94,11 @@ def test_no_sample_of_the_bent_surface_is_cut(heights, name, radius):
     found = tip_heights(terrain, cutter, x, y)
     exact = brute(terrain, cutter, x, y)
     assert (found >= exact - 1e-6).all()
-    # Nor does it stay higher than samples and the kept distance explain: a flat end's rim
-    # jumps, so that it is asked of those that do not.
+    # Nor does it stay higher than the kept distance explains, and samples 0.03 mm apart on
+    # slopes of 8 under a flank of 5.7: a rim jumps, so that it is not asked of the others.
     if name == "tapered":
         kept = bend_error(terrain.heights, PITCH, radius)
-        assert (found - exact).max() <= 0.2 + 12 * kept
+        assert (found - exact).max() <= 0.6 + 12 * kept
 
 
 def test_rows_once_round_join():
