@@ -117,3 +117,33 @@ def test_jobs_of_one_stage_have_a_page_too():
     assert "2 pages of a4" in text
     assert "2.00°, 3° asked" in text
     assert "a cast will not come free" in text
+
+
+@pytest.mark.parametrize(
+    ("machine", "words"),
+    [
+        ("altmill-4x4-rotary", ["A, °", "<td>A</td>", "turns so as A grows", "A 0: the stock"]),
+        ("3018-prover-rotary", ["Y, mm", "<td>Y</td>", "turns so as Y grows", "$101 is its steps"]),
+    ],
+)
+def test_a_round_stock_is_shown_as_it_turns(machine, words, made):
+    text = page(made(round="40mm", bore="10mm", size="60x45mm", machine=machine))
+    assert parsed(text).seen.count("svg") == 3
+    common = ["round, 40 mm thick, 45 mm long, bored 10 mm wide", "no end", "figure&#39;s top"]
+    for word in [*words, *common]:
+        assert word in text
+
+
+@pytest.mark.parametrize(
+    ("form", "count", "words"),
+    [
+        ({"round": "40mm"}, 3, "round, 40 mm thick, 45 mm long"),
+        ({"curved": "120mm"}, 1, "its face curved along X with a radius of 120 mm"),
+    ],
+)
+def test_a_bent_panel_without_programs_has_a_page(form, count, words):
+    report = start_report(resolve([("flag", {"size": "60x45mm", **form})]))
+    report["model"] = {"name": "cow", "notes": []}
+    text = page(report)
+    assert parsed(text).seen.count("svg") == count
+    assert words in text
