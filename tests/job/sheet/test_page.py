@@ -147,3 +147,49 @@ def test_a_bent_panel_without_programs_has_a_page(form, count, words):
     text = page(report)
     assert parsed(text).seen.count("svg") == count
     assert words in text
+
+
+def styled(report, **places):
+    """The report of a job with marks: (spacing, depth) of each place, mm, None where none are."""
+    measured = {
+        place: {
+            "spacing_mm": spacing,
+            "depth_mm": depth,
+            "area_mm2": 90.0,
+            "within_tolerance": 0.9994,
+            "left_p99_mm": 0.039,
+            "tolerance_mm": 0.05,
+        }
+        for place, (spacing, depth) in places.items()
+    }
+    cutter = report["programs"][1]["cutter"]
+    asked = {"spacing_mm": 1.0, "depth_mm": 0.13, "cutter": cutter, "strokes": 1041}
+    return report | {"style": {**asked, "measured": measured}}
+
+
+def cells(text):
+    """The cells of the table of marks, row by row, without their tags."""
+    table = re.search(r"<h2>Marks</h2>.*?</table>", text, re.DOTALL)[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", table)
+    return [[c.strip() for c in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row)] for row in rows]
+
+
+def test_marks_are_told_as_asked_and_as_they_came_out(report):
+    text = page(styled(report, figure=(0.7844, 0.1385), ground=(None, 0.2)))
+    parsed(text)
+    assert "1,041 strokes by <code>tapered-ball-1</code>" in text
+    left = ["99.9 % within 0.05 mm", "0.039"]
+    assert cells(text)[1:] == [
+        ["Asked", "1", "0.13", "", ""],
+        ["On the figure", "0.78", "0.14", *left],
+        ["On the ground", "", "0.20", *left],
+    ]
+
+
+def test_a_place_with_no_room_for_marks_says_so(report):
+    text = page(styled(report, figure=(None, None)))
+    assert cells(text)[2] == ["On the figure", "none: there is no room for one"]
+
+
+def test_without_marks_there_is_no_section_of_them(report):
+    assert "<h2>Marks</h2>" not in page(report)
