@@ -1,10 +1,10 @@
 """Report to HTML: one page that holds its pictures, for the person at the machine."""
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from relieffab.html import renderer
 from relieffab.job.folder import SOLIDS
 from relieffab.job.settings import Job, job_of, resolve
 from relieffab.job.sheet import tools
@@ -18,23 +18,7 @@ from relieffab.job.sheet.words import mm, sides
 from relieffab.job.stocks import milled_of, round_of, stock_of
 from relieffab.stock import Stock
 
-if TYPE_CHECKING:
-    from jinja2 import Template
-
-
-@cache
-def _template() -> "Template":
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    there = Environment(
-        loader=PackageLoader("relieffab.job.sheet"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    there.filters.update(mm=mm, sides=sides)
-    return there.get_template("sheet.html")
+_render = renderer("relieffab.job.sheet", "templates", "sheet.html", mm=mm, sides=sides)
 
 
 def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
@@ -57,7 +41,7 @@ def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
     stock = _stock(report, job)
     shown = pictures(report, folders)
     kept = shown.pop("plan", None)
-    return _template().render(
+    return _render(
         report=report,
         job=job,
         title=str(report.get("model", {}).get("name", "relief")),
