@@ -1,30 +1,12 @@
 """index.html: all jobs of a batch on one page, to look through, search and sort."""
 
 from collections.abc import Mapping
-from functools import cache
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from relieffab.catalogue.rows import DONE, FAILED, KEPT, WAITING
+from relieffab.html import renderer
 from relieffab.job.sheet.words import clock
-
-if TYPE_CHECKING:
-    from jinja2 import Template
-
-
-@cache
-def _template() -> "Template":
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    there = Environment(
-        loader=PackageLoader("relieffab.catalogue", "page"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    there.filters.update(clock=clock, verdict=verdict, sides=_sides, file=_file)
-    return there.get_template("index.html")
 
 
 def verdict(row: Mapping[str, Any]) -> str:
@@ -44,6 +26,17 @@ def _file(path: str) -> str:
     return PurePath(path).name
 
 
+_render = renderer(
+    "relieffab.catalogue",
+    "page",
+    "index.html",
+    clock=clock,
+    verdict=verdict,
+    sides=_sides,
+    file=_file,
+)
+
+
 def index(batch: Mapping[str, Any]) -> str:
     """Lay a batch out as HTML.
 
@@ -59,7 +52,7 @@ def index(batch: Mapping[str, Any]) -> str:
     """
     rows = batch["jobs"]
     made = [row for row in rows if row["status"] in (DONE, KEPT)]
-    return _template().render(
+    return _render(
         batch=batch,
         made=made,
         failed=[row for row in rows if row["status"] == FAILED],

@@ -1,7 +1,7 @@
 """A drawing as the page lays it out: paths and words in pixels of an SVG."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,14 +30,22 @@ class Line:
 
 @dataclass(frozen=True)
 class Inset:
-    """A picture on the drawing."""
+    """A picture on the drawing, and the degrees it is turned by within its box, clockwise."""
 
     x: float
     y: float
     width: float
     height: float
     uri: str
-    turned: bool = False
+    turn: int = 0
+
+    @property
+    def lying(self) -> "Inset":
+        """What comes to fill the box once it is turned about the middle."""
+        if self.turn % 180 == 0:
+            return self
+        x, y = self.x + (self.width - self.height) / 2, self.y + (self.height - self.width) / 2
+        return replace(self, x=x, y=y, width=self.height, height=self.width)
 
 
 @dataclass
@@ -64,9 +72,9 @@ class Drawing:
         corners = [f"{x:.1f} {y:.1f}" for x, y in np.asarray(points, float)]
         self.lines.append(Line(kind, f"M{' L'.join(corners)}{' Z' if closed else ''}"))
 
-    def circle(self, kind: str, middle: Sequence[float], radius: float) -> None:
-        """Draw a circle."""
-        x, y = middle
+    def circle(self, kind: str, middle: ArrayLike, radius: float) -> None:
+        """Draw a circle round a place (2,)."""
+        x, y = np.asarray(middle, float)
         half = f"a{radius:.1f} {radius:.1f} 0 0 1"
         path = f"M{x - radius:.1f} {y:.1f} {half} {2 * radius:.1f} 0 {half} {-2 * radius:.1f} 0 Z"
         self.lines.append(Line(kind, path))

@@ -1,42 +1,24 @@
 """Report to HTML: one page that holds its pictures, for the person at the machine."""
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
-
+from relieffab.html import renderer
 from relieffab.job.folder import SOLIDS
 from relieffab.job.settings import Job, job_of, resolve
-from relieffab.job.sheet import plan, section, tools
-from relieffab.job.sheet.checklist import checklist, zero
+from relieffab.job.sheet import tools
+from relieffab.job.sheet.checklist import checklist
 from relieffab.job.sheet.commands import commands
-from relieffab.job.sheet.drawing import Drawing
+from relieffab.job.sheet.drawings import count_positions, drawings
 from relieffab.job.sheet.heed import heeds
-from relieffab.job.sheet.pictures import Picture, pictures
+from relieffab.job.sheet.pictures import pictures
+from relieffab.job.sheet.stocks import measures, zero
 from relieffab.job.sheet.words import mm, sides
-from relieffab.job.stocks import stock_of
+from relieffab.job.stocks import milled_of, round_of, stock_of
 from relieffab.stock import Stock
-from relieffab.toolpath.positions import Position
 
-if TYPE_CHECKING:
-    from jinja2 import Template
-
-
-@cache
-def _template() -> "Template":
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    there = Environment(
-        loader=PackageLoader("relieffab.job.sheet"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    there.filters.update(mm=mm, sides=sides)
-    return there.get_template("sheet.html")
+_render = renderer("relieffab.job.sheet", "templates", "sheet.html", mm=mm, sides=sides)
 
 
 def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
@@ -55,60 +37,42 @@ def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
         One page that needs nothing beside it.
     """
     job = job_of(resolve([("report.json", report["settings"])]))
-    stock = Stock.of(report["slab"]) if "slab" in report else stock_of(job)
+    bent = round_of(job)
+    stock = _stock(report, job)
     shown = pictures(report, folders)
     kept = shown.pop("plan", None)
-    return _template().render(
+    return _render(
         report=report,
         job=job,
         title=str(report.get("model", {}).get("name", "relief")),
         heeds=heeds(report),
         pictures=shown,
         stock=stock,
-        plans=_plans(report, stock, kept),
-        section=section.draw(stock, _depth(report, job), report.get("machine")),
+        measures=measures(stock, bent),
+        drawings=drawings(report, stock, bent, _depth(report, job), kept),
+        positions=count_positions(report),
         zero=zero(stock),
         cutters=tools.cutters(report),
         programs=tools.programs(report),
+        axes=tools.axes(report),
         total=tools.total(report) if report.get("programs") else "",
         reaches=tools.reaches(report),
-        checklist=checklist(report, stock),
+        checklist=checklist(report, stock, bent),
         solids={name: report[name] for name in SOLIDS if name in report},
         hashes=_hashes(report),
         commands=commands(report),
     )
 
 
+def _stock(report: Mapping[str, Any], job: Job) -> Stock:
+    """Give the stock that programs were made for, or would be."""
+    if "slab" in report:
+        return Stock.of(report["slab"])
+    return milled_of(job) if job.round is not None else stock_of(job)
+
+
 def _depth(report: Mapping[str, Any], job: Job) -> float:
     return float(report["relief"]["depth_mm"]) if "relief" in report else job.depth
-
-
-def _plans(
-    report: Mapping[str, Any], stock: Stock, kept: Picture | None
-) -> list[tuple[str, Drawing]]:
-    """Draw the stock once for each position, and say how it lies."""
-    parts = report.get("programs", [])
-    places = {part["placing"]: part["position"] for part in parts if "position" in part}
-    travel = report["machine"]["travel"] if parts else None
-    drawn = []
-    for placing, place in (places or {"": None}).items():
-        position = Position.of(place) if place else None
-        lies = plan.lying(stock, position)
-        here = [part for part in parts if part.get("placing", "") == placing]
-        shown = plan.Plan(lies, position, plan.bounds_of(here, lies), travel, _seen(report, kept))
-        words = f"Position {position.number} of {position.count}: {placing}" if position else ""
-        drawn.append((words, plan.draw(shown)))
-    return drawn
-
-
-def _seen(report: Mapping[str, Any], kept: Picture | None) -> Any:
-    """Find where on the panel the picture of the height field belongs."""
-    if kept is None:
-        return None
-    relief = report["relief"]
-    x, y = relief["origin_mm"]
-    wide, tall = ((relief[name] - 1) * relief["pitch_mm"] for name in ("cols", "rows"))
-    return kept.uri, np.array([x, y - tall]), np.array([x + wide, y])
 
 
 def _hashes(report: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -1,4 +1,7 @@
-"""The stock as it lies on the machine, drawn from above, with work zero and what is cut."""
+"""The stock as it lies on the machine, drawn from above, with work zero and what is cut.
+
+Of a round stock it is the face laid out flat, as the cutter meets it.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -35,6 +38,8 @@ class Plan:
         Of the machine, mm.
     picture : (uri, low, high) or None
         The relief from above, and its corners, panel mm.
+    letter : {'Y', 'A'}
+        The axis across X; A grows against Y.
     """
 
     stock: Stock
@@ -42,6 +47,7 @@ class Plan:
     bounds: Box | None = None
     travel: Sequence[float] | None = None
     picture: tuple[str, Floats, Floats] | None = None
+    letter: str = "Y"
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,8 @@ class Sight:
         x, y = np.asarray(points, float).reshape(-1, 2).T
         if self.stock.turned:
             x, y = self.stock.width - x, self.stock.height - y
+        if self.stock.radius:
+            y = self.stock.height - y
         left, near = self.corner
         return np.stack([left + x * self.scale, near - y * self.scale], axis=1)
 
@@ -80,7 +88,7 @@ def lying(stock: Stock, position: Position | None) -> Stock:
 
 def _reach(plan: Plan) -> Box | None:
     """Place the machine's travel evenly round what is cut, panel mm; None if it is too large."""
-    if plan.travel is None or plan.bounds is None:
+    if plan.travel is None or plan.bounds is None or plan.stock.radius:
         return None
     low, high = plan.bounds[0][:2], plan.bounds[1][:2]
     travel = np.asarray(plan.travel[:2], float)
@@ -101,13 +109,15 @@ def draw(plan: Plan) -> Drawing:
     scale = float(min(LARGEST / (high - low)))
     wide, tall = (high - low) * scale
     corner = MARGIN - low[0] * scale, MARGIN / 2 + high[1] * scale
-    page = Drawing(wide + 1.5 * MARGIN, tall + 1.9 * MARGIN, "The stock from above")
+    title = "The face laid out flat" if stock.radius else "The stock from above"
+    page = Drawing(wide + 1.5 * MARGIN, tall + 1.9 * MARGIN, title)
     sight = Sight(stock, scale, corner)
     _stock(page, plan, sight)
     _programs(page, plan, sight, reach)
     _measures(page, stock, sight)
-    _zero(page, stock, sight)
-    page.words.append(Word(page.width / 2, page.height - 5, "operator's side"))
+    _zero(page, plan, sight)
+    if not stock.radius:
+        page.words.append(Word(page.width / 2, page.height - 5, "operator's side"))
     return page
 
 
@@ -123,7 +133,8 @@ def _stock(page: Drawing, plan: Plan, sight: Sight) -> None:
         uri, low, high = plan.picture
         corners = sight([low[:2], high[:2]])
         (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
-        page.insets.append(Inset(x0, y0, x1 - x0, y1 - y0, uri, stock.turned))
+        turn = -90 if stock.radius else 180 if stock.turned else 0
+        page.insets.append(Inset(x0, y0, x1 - x0, y1 - y0, uri, turn))
     if stock.frame:
         inner = stock.outline.polygon(by=stock.frame.width)
         page.polyline("frame", sight(inner), closed=True)
@@ -160,12 +171,14 @@ def _measures(page: Drawing, stock: Stock, sight: Sight) -> None:
     page.down(y0, y1, left, f"{mm(stock.height)} mm", from_x=x0)
 
 
-def _zero(page: Drawing, stock: Stock, sight: Sight) -> None:
-    """Draw work zero and the ways of X and Y from it, as the machine has them."""
+def _zero(page: Drawing, plan: Plan, sight: Sight) -> None:
+    """Draw work zero and the ways of the axes from it, as the machine has them."""
+    stock = plan.stock
     x, y = sight(stock.work_zero[:2])[0]
-    reach = min(0.22 * min(LARGEST), 0.6 * sight.scale * min(stock.width, stock.height))
+    reach = min(0.22 * min(LARGEST), 0.4 * sight.scale * min(stock.width, stock.height))
+    up = y + reach if plan.letter == "A" else y - reach
     page.arrow("zero", (x, y), (x + reach, y))
-    page.arrow("zero", (x, y), (x, y - reach))
+    page.arrow("zero", (x, y), (x, up))
     page.circle("origin", (x, y), 5)
     page.words.append(Word(x + reach + 7, y - 4, "X", "start"))
-    page.words.append(Word(x + 6, y - reach - 2, "Y", "start"))
+    page.words.append(Word(x + 6, up - 2, plan.letter, "start"))

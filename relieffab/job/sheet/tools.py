@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from relieffab.job.sheet.axes import second_of
 from relieffab.job.sheet.reach import reach_of
 from relieffab.job.sheet.words import clock, mm, span
 
@@ -55,7 +56,7 @@ def programs(report: Mapping[str, Any]) -> list[Row]:
     """List the programs in their order, with time and bounds."""
     rows = []
     for number, part in enumerate(report.get("programs", []), 1):
-        low, high = part["bounds_mm"]
+        low, high = _box(part, report)
         rows.append(
             {
                 "number": number,
@@ -78,18 +79,36 @@ def total(report: Mapping[str, Any]) -> str:
 
 def reaches(report: Mapping[str, Any]) -> list[Row]:
     """Hold what the programs span against the machine's travel, axis by axis."""
-    boxes = [part["bounds_mm"] for part in report.get("programs", [])]
+    boxes = [_box(part, report) for part in report.get("programs", [])]
     rows = []
-    for axis, letter in enumerate("XYZ" if boxes else ""):
+    for axis, (letter, unit) in enumerate(axes(report) if boxes else ()):
         low = min(box[0][axis] for box in boxes)
         high = max(box[1][axis] for box in boxes)
-        travel = report["machine"]["travel"][axis]
+        endless = axis == 1 and second_of(report).turns
         rows.append(
             {
                 "axis": letter,
-                "span": span(low, high),
-                "needs": mm(round(high - low, 2)),
-                "has": mm(travel),
+                "span": f"{span(low, high)} {unit}",
+                "needs": _with(unit, round(high - low, 2)),
+                "has": "no end" if endless else _with(unit, report["machine"]["travel"][axis]),
             }
         )
     return rows
+
+
+def axes(report: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Name the axes of the programs and their units."""
+    second = second_of(report)
+    return [("X", "mm"), (second.letter, second.unit), ("Z", "mm")]
+
+
+def _with(unit: str, value: float) -> str:
+    return f"{mm(value)}°" if unit == "°" else f"{mm(value)} {unit}"
+
+
+def _box(part: Mapping[str, Any], report: Mapping[str, Any]) -> tuple[list[float], list[float]]:
+    """Give what a program spans, each axis in its own unit."""
+    per_mm = second_of(report).per_mm
+    (x0, y0, z0), (x1, y1, z1) = part["bounds_mm"]
+    low, high = sorted((y0 * per_mm, y1 * per_mm))
+    return [x0, low, z0], [x1, high, z1]

@@ -7,7 +7,7 @@ import pytest
 from relieffab import profiles
 from relieffab.job.report import start_report
 from relieffab.job.settings import job_of, resolve
-from relieffab.job.stocks import stock_of
+from relieffab.job.stocks import machine_of, milled_of, round_of, stock_of
 from relieffab.machine import cutting
 
 
@@ -30,7 +30,8 @@ def make_report(**settings):
     """A report of a whole job."""
     chosen = resolve([("flag", {"model": "horse.ply", "view": "right", **settings})])
     report, job = start_report(chosen), job_of(chosen)
-    machine, material = profiles.machine(job.machine), profiles.material(job.material)
+    machine, material = machine_of(job), profiles.material(job.material)
+    stock = stock_of(job) if round_of(job) is None else milled_of(job)
     report |= {
         "model": {"name": "horse.ply", "notes": ["turned outward"], "sha256": "f" * 64},
         "relief": {
@@ -53,7 +54,7 @@ def make_report(**settings):
         },
         "machine": asdict(machine),
         "material": {**asdict(material), "notes": ["feeds are a careful guess: start slower"]},
-        "slab": asdict(stock_of(job)),
+        "slab": asdict(stock),
         "units": "mm",
         "aids": [{"file": "00-outline.nc", "sha256": "b" * 64}],
         "programs": [

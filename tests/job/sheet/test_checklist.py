@@ -1,4 +1,7 @@
-from relieffab.job.sheet.checklist import checklist, zero
+from math import pi
+
+from relieffab.job.sheet.checklist import checklist
+from relieffab.round import Round
 from relieffab.stock import Stock
 
 
@@ -17,8 +20,24 @@ def test_without_programs_there_is_nothing_to_do():
     assert checklist({}, Stock(120, 90, 12)) == []
 
 
-def test_work_zero_in_words():
-    assert zero(Stock(120, 90, 12)) == "the stock's near left corner, on the stock's face"
-    assert zero(Stock(120, 90, 12, (60, 45, -12))) == (
-        "60 mm right and 45 mm up from the stock's near left corner, under the stock, on the table"
-    )
+def of_round(made, machine):
+    report = made(round="40mm", size="60x45mm", machine=machine)
+    bent = Round(60, 45, 40)
+    return " ".join(checklist(report, Stock.of(report["slab"]), bent))
+
+
+def test_a_stock_that_a_turns_is_chucked_and_its_zero_found(made):
+    told = of_round(made, "altmill-4x4-rotary")
+    assert "round, 40 mm thick, 45 mm long" in told
+    assert "From X 10 to 110 mm, all the way round, nothing of chuck or tailstock" in told
+    assert "A 0: the stock turned" in told
+    assert "X and A stay" in told
+    assert "Clamped" not in told
+    assert "$101" not in told
+
+
+def test_where_y_is_wired_to_the_axis_its_steps_are_those_of_the_face(made):
+    told = of_round(made, "3018-prover-rotary")
+    assert f"$101 is its steps for a whole turn / {40 * pi:.3f}" in told
+    assert f"$111 {3600 / 360 * 40 * pi:.0f} mm/min" in told
+    assert "Y 0: the stock turned" in told

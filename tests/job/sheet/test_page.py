@@ -117,3 +117,79 @@ def test_jobs_of_one_stage_have_a_page_too():
     assert "2 pages of a4" in text
     assert "2.00°, 3° asked" in text
     assert "a cast will not come free" in text
+
+
+@pytest.mark.parametrize(
+    ("machine", "words"),
+    [
+        ("altmill-4x4-rotary", ["A, °", "<td>A</td>", "turns so as A grows", "A 0: the stock"]),
+        ("3018-prover-rotary", ["Y, mm", "<td>Y</td>", "turns so as Y grows", "$101 is its steps"]),
+    ],
+)
+def test_a_round_stock_is_shown_as_it_turns(machine, words, made):
+    text = page(made(round="40mm", bore="10mm", size="60x45mm", machine=machine))
+    assert parsed(text).seen.count("svg") == 3
+    common = ["round, 40 mm thick, 45 mm long, bored 10 mm wide", "no end", "figure&#39;s top"]
+    for word in [*words, *common]:
+        assert word in text
+
+
+@pytest.mark.parametrize(
+    ("form", "count", "words"),
+    [
+        ({"round": "40mm"}, 3, "round, 40 mm thick, 45 mm long"),
+        ({"curved": "120mm"}, 1, "its face curved along X with a radius of 120 mm"),
+    ],
+)
+def test_a_bent_panel_without_programs_has_a_page(form, count, words):
+    report = start_report(resolve([("flag", {"size": "60x45mm", **form})]))
+    report["model"] = {"name": "cow", "notes": []}
+    text = page(report)
+    assert parsed(text).seen.count("svg") == count
+    assert words in text
+
+
+def styled(report, **places):
+    """The report of a job with marks: (spacing, depth) of each place, mm, None where none are."""
+    measured = {
+        place: {
+            "spacing_mm": spacing,
+            "depth_mm": depth,
+            "area_mm2": 90.0,
+            "within_tolerance": 0.9994,
+            "left_p99_mm": 0.039,
+            "tolerance_mm": 0.05,
+        }
+        for place, (spacing, depth) in places.items()
+    }
+    cutter = report["programs"][1]["cutter"]
+    asked = {"spacing_mm": 1.0, "depth_mm": 0.13, "cutter": cutter, "strokes": 1041}
+    return report | {"style": {**asked, "measured": measured}}
+
+
+def cells(text):
+    """The cells of the table of marks, row by row, without their tags."""
+    table = re.search(r"<h2>Marks</h2>.*?</table>", text, re.DOTALL)[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", table)
+    return [[c.strip() for c in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row)] for row in rows]
+
+
+def test_marks_are_told_as_asked_and_as_they_came_out(report):
+    text = page(styled(report, figure=(0.7844, 0.1385), ground=(None, 0.2)))
+    parsed(text)
+    assert "1,041 strokes by <code>tapered-ball-1</code>" in text
+    left = ["99.9 % within 0.05 mm", "0.039"]
+    assert cells(text)[1:] == [
+        ["Asked", "1", "0.13", "", ""],
+        ["On the figure", "0.78", "0.14", *left],
+        ["On the ground", "", "0.20", *left],
+    ]
+
+
+def test_a_place_with_no_room_for_marks_says_so(report):
+    text = page(styled(report, figure=(None, None)))
+    assert cells(text)[2] == ["On the figure", "none: there is no room for one"]
+
+
+def test_without_marks_there_is_no_section_of_them(report):
+    assert "<h2>Marks</h2>" not in page(report)

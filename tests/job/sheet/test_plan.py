@@ -58,7 +58,7 @@ def test_a_turned_stock_is_drawn_as_it_lies():
     outline, window = points(drawing, "stock"), points(drawing, "window")
     assert window[:, 0].min() == pytest.approx(outline[:, 0].min(), abs=0.1)
     inset = drawing.insets[0]
-    assert inset.turned
+    assert inset.turn == 180
     # 80 to 110 mm from the left is 10 to 40 mm once it is turned.
     scale = np.ptp(outline[:, 0]) / 120
     assert inset.x - outline[:, 0].min() == pytest.approx(10 * scale, abs=0.2)
@@ -71,3 +71,29 @@ def test_bounds_of_programs_are_brought_to_the_panel():
     assert low.tolist() == [90, 70, -3]
     assert high.tolist() == [120, 90, 5]
     assert plan.bounds_of([], stock) is None
+
+
+def test_a_face_laid_out_is_as_the_cutter_meets_it():
+    stock = Stock(45, 60, 20, (0.0, 0.0, 0.0), radius=20)
+    # All that a program cuts lies at Y below 0 where work zero is on the figure's right edge.
+    box = plan.bounds_of([{"bounds_mm": [[0, -60, -3], [45, -50, 5]]}], stock)
+    assert (box[0].tolist(), box[1].tolist()) == ([0, 50, -3], [45, 60, 5])
+    seen = "data:,", np.array([5.0, 40.0]), np.array([15.0, 60.0])
+    drawing = plan.draw(plan.Plan(stock, None, box, (400, 300, 80), seen, "A"))
+    outline, bounds = points(drawing, "stock"), points(drawing, "bounds")
+    zero = points(drawing, "zero")
+    assert zero[0] == pytest.approx(outline.min(axis=0), abs=0.06)
+    assert bounds[:, 1].max() == pytest.approx(outline[:, 1].max(), abs=0.06)
+    assert "travel" not in kinds(drawing)
+    # A grows against Y, which is up on the page.
+    arrows = [line.path for line in drawing.lines if line.kind == "zero"]
+    assert points(drawing, "zero")[1][0] > zero[0][0]
+    assert float(arrows[2].split(" L")[1].split()[1]) > zero[0][1]
+    assert {"A", "45 mm", "60 mm"} <= {word.text for word in drawing.words}
+    inset = drawing.insets[0]
+    scale = np.ptp(outline[:, 0]) / 45
+    assert inset.turn == -90
+    assert (inset.width, inset.height) == pytest.approx((10 * scale, 20 * scale), abs=0.2)
+    lying = inset.lying
+    assert (lying.width, lying.height) == (inset.height, inset.width)
+    assert lying.x + lying.width / 2 == pytest.approx(inset.x + inset.width / 2)

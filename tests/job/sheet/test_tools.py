@@ -20,5 +20,5 @@ def test_programs_times_and_travel(report):
     assert first["way"] == "5.0 m"
     assert tools.total(report) == "1 h 00 min"
     z = tools.reaches(report)[2]
-    assert z == {"axis": "Z", "span": "-3 to 5", "needs": "8", "has": "34"}
+    assert z == {"axis": "Z", "span": "-3 to 5 mm", "needs": "8 mm", "has": "34 mm"}
     assert tools.reaches({}) == []
