@@ -6,6 +6,7 @@ import { Newest } from "./newest.js";
 
 // Of two pages that are open at once, each has questions of its own.
 const PAGE = crypto.randomUUID();
+const REST_MS = 400; // after which the hand is said to rest
 const PATIENCE_MS = 250; // before a wait is shown
 
 export class Asking {
@@ -16,8 +17,19 @@ export class Asking {
    * @param {function} well  (what was answered, frame)
    */
   constructor({ store, show, fail, well }) {
-    Object.assign(this, { store, show, fail, well, wanted: [], count: 0, begun: false, working: new Set() });
+    Object.assign(this, {
+      store,
+      show,
+      fail,
+      well,
+      wanted: [],
+      count: 0,
+      begun: false,
+      rest: REST_MS,
+      working: new Set(),
+    });
     this.fresh = {}; // version of the settings that each product shown is of
+    this.fine = {}; // the same, of what is shown as finely as it can be
     this.preview = this.#channel("preview", (question) => postFrame("preview", question));
     this.panel = this.#channel("panel", (question) => postFrame("panel", question));
     this.toolpaths = this.#channel("toolpaths", (question) => postFrame("toolpaths", question));
@@ -51,6 +63,20 @@ export class Asking {
     if (stale.includes("panel")) this.#ask(this.panel, ["panel"]);
     if (stale.includes("toolpaths")) this.#ask(this.toolpaths, ["toolpaths"]);
     if (stale.length === 0) this.#tell();
+    this.#restSoon();
+  }
+
+  /** Ask for finer pictures of what is shown, once the hand rests. */
+  #restSoon() {
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => {
+      const { version } = this.store;
+      const coarse = this.wanted.filter(
+        (name) => this.fresh[name] === version && this.fine[name] !== version,
+      );
+      const seen = coarse.filter((name) => name === "layers" || name === "relief");
+      if (this.begun && seen.length > 0 && !this.preview.flight) this.#ask(this.preview, seen, true);
+    }, this.rest);
   }
 
   /** Another model: nothing that was asked before matters. */
@@ -58,6 +84,7 @@ export class Asking {
     this.begun = false;
     for (const channel of [this.preview, this.panel, this.toolpaths, this.stock]) channel.forget();
     this.fresh = {};
+    this.fine = {};
   }
 
   /** See the stock at a moment. */
@@ -65,24 +92,28 @@ export class Asking {
     this.stock.ask(seconds);
   }
 
-  #ask(channel, want) {
+  #ask(channel, want, fine = false) {
     const { settings, version } = this.store;
     this.count += 1;
     byId("view").dataset.asked = version;
-    channel.ask({ ask: this.count, settings, want, version });
+    channel.ask({ ask: this.count, settings, want, version, fine });
   }
 
   #channel(name, send) {
     return new Newest({
-      send: ({ ask, settings, want }) => send({ page: PAGE, ask, settings, want }),
-      again: ({ want, version }) => version === this.store.version && want.some((product) => this.wanted.includes(product)),
-      show: (frame, { want, settings, version }) => {
+      send: ({ ask, settings, want, fine }) => send({ page: PAGE, ask, settings, want, fine }),
+      yields: ({ fine }) => fine,
+      again: ({ want, version, fine }) =>
+        !fine && version === this.store.version && want.some((product) => this.wanted.includes(product)),
+      show: (frame, { want, settings, version, fine }) => {
         for (const product of want) {
           this.show[product](frame, settings);
           this.fresh[product] = version;
+          if (fine) this.fine[product] = version;
         }
         this.well(name, frame);
         this.#tell();
+        this.#restSoon();
       },
       fail: (error, { want, version }) => {
         // What cannot be made is not asked again until something changes.

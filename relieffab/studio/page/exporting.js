@@ -67,14 +67,23 @@ export class Exporting {
     if (!this.bar) {
       this.bar = el("progress", { "aria-label": "Export" });
       this.line = el("p", { class: "stage-name" });
-      const cancel = el("button", { type: "button", class: "quiet edge", onclick: () => this.#cancel() }, "Cancel");
+      const cancel = el(
+        "button",
+        { type: "button", class: "quiet edge", onclick: () => this.#cancel() },
+        "Cancel",
+      );
       this.#fill("Exporting", this.line, this.bar, cancel);
     }
     if (total > 0) {
       this.bar.max = total;
       this.bar.value = Math.min(done, total);
     } else this.bar.removeAttribute("value");
-    this.line.textContent = [stage ?? "beginning", unit && total > 0 ? `${Math.round(done)} of ${Math.round(total)} ${unit}` : ""].filter(Boolean).join(", ");
+    this.line.textContent = [
+      stage ?? "beginning",
+      unit && total > 0 ? `${Math.round(done)} of ${Math.round(total)} ${unit}` : "",
+    ]
+      .filter(Boolean)
+      .join(", ");
   }
 
   async #cancel() {
@@ -91,7 +100,14 @@ export class Exporting {
       el(
         "li",
         {},
-        el("a", { href: `result/${name.split("/").map(encodeURIComponent).join("/")}`, download: name.split("/").at(-1) }, name),
+        el(
+          "a",
+          {
+            href: `result/${name.split("/").map(encodeURIComponent).join("/")}`,
+            download: name.split("/").at(-1),
+          },
+          name,
+        ),
         el("span", {}, bytes === undefined ? "" : size(bytes)),
       ),
     );
@@ -99,7 +115,15 @@ export class Exporting {
       "Exported",
       el("p", { class: "stage-name" }, `into ${folder}`),
       el("ul", { class: "files" }, ...rows),
-      command ? el("p", {}, "The command that makes this again, with ", el("a", { href: "job.toml", download: "job.toml" }, "its job file"), ":") : null,
+      command
+        ? el(
+            "p",
+            {},
+            "The command that makes this again, with ",
+            el("a", { href: "job.toml", download: "job.toml" }, "its job file"),
+            ":",
+          )
+        : null,
       command ? this.#command(command) : null,
     );
     if (before === "running") {
@@ -126,8 +150,16 @@ export class Exporting {
   }
 
   #fill(title, ...parts) {
-    const close = el("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => (this.host.hidden = true) }, "×");
-    this.host.replaceChildren(el("h2", { id: "exporting-title" }, title), ...parts.filter(Boolean), ...(title === "Exported" ? [close] : []));
+    const close = el(
+      "button",
+      { type: "button", class: "close", "aria-label": "Close", onclick: () => (this.host.hidden = true) },
+      "×",
+    );
+    this.host.replaceChildren(
+      el("h2", { id: "exporting-title" }, title),
+      ...parts.filter(Boolean),
+      ...(title === "Exported" ? [close] : []),
+    );
     this.host.hidden = false;
   }
 }

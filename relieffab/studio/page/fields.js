@@ -105,14 +105,19 @@ function choice(control, change) {
   const input = el("select", {}, ...options);
   input.addEventListener("change", () => change(input.value, false));
   const set = (text) => {
-    if (![...input.options].some((option) => option.value === text)) input.append(el("option", { value: text }, text || "auto"));
+    if (![...input.options].some((option) => option.value === text))
+      input.append(el("option", { value: text }, text || "auto"));
     input.value = text;
   };
   return { input, set };
 }
 
 function words(control, change) {
-  const input = el("input", { type: "text", spellcheck: "false", placeholder: control.default === "" ? "none" : control.default });
+  const input = el("input", {
+    type: "text",
+    spellcheck: "false",
+    placeholder: control.default === "" ? "none" : control.default,
+  });
   input.addEventListener("change", () => change(input.value.trim(), false));
   return {
     input,

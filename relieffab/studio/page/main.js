@@ -58,7 +58,9 @@ async function take(state) {
   show.load(await getFrame("mesh"), model.up);
   store.adopt({ up: state.settings.up });
   asking.begin();
-  say([`${model.name}: ${model.triangles.toLocaleString("en")} triangles`, ...(model.notes ?? [])].join(" · "));
+  say(
+    [`${model.name}: ${model.triangles.toLocaleString("en")} triangles`, ...(model.notes ?? [])].join(" · "),
+  );
 }
 
 /** Open a model: a file, or the studio's own of that name. */

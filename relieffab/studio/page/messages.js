@@ -11,13 +11,20 @@ const TOLD = [
 
 /** Show what went wrong, as the studio says it; it stays until it is settled or closed. */
 export function complain(error, about) {
-  const facts = TOLD.filter(([key]) => error[key]).flatMap(([key, label]) => [el("dt", {}, label), el("dd", {}, String(error[key]))]);
+  const facts = TOLD.filter(([key]) => error[key]).flatMap(([key, label]) => [
+    el("dt", {}, label),
+    el("dd", {}, String(error[key])),
+  ]);
   const box = el(
     "div",
     { class: "message", "data-about": about },
     el("p", {}, error.message),
     facts.length > 0 ? el("dl", {}, ...facts) : null,
-    el("button", { type: "button", class: "close", "aria-label": "Close this message", onclick: () => box.remove() }, "×"),
+    el(
+      "button",
+      { type: "button", class: "close", "aria-label": "Close this message", onclick: () => box.remove() },
+      "×",
+    ),
   );
   settle(about);
   byId("messages").append(box);
@@ -42,7 +49,10 @@ export function progress(what, { stage, done, total }) {
 
 /** Say how long each part took, and what was noted on the way. */
 export function account(seconds = {}, notes = []) {
-  const times = Object.entries(seconds).map(([name, value]) => `${name} ${value < 1 ? `${Math.round(1000 * value)} ms` : `${value.toFixed(1)} s`}`);
+  const told = Object.entries(seconds).filter(([, value]) => value >= 0.001);
+  const times = told.map(
+    ([name, value]) => `${name} ${value < 1 ? `${Math.round(1000 * value)} ms` : `${value.toFixed(1)} s`}`,
+  );
   byId("times").textContent = times.join(" · ");
   byId("status").textContent = notes.join(" · ");
 }

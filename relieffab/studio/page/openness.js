@@ -56,7 +56,10 @@ export function openToLight(field, light, open) {
 /** Average each node's light with its neighbours': 1/4 1/2 1/4, both ways. */
 function soften({ rows, cols }, open) {
   const before = new Float32Array(rows * cols);
-  for (const [step, side] of [[1, cols], [cols, rows]]) {
+  for (const [step, side] of [
+    [1, cols],
+    [cols, rows],
+  ]) {
     for (let at = 0; at < before.length; at++) before[at] = open[2 * at];
     for (let at = 0; at < before.length; at++) {
       const place = step === 1 ? at % cols : Math.floor(at / cols);

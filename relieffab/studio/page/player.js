@@ -13,12 +13,30 @@ export class Player {
    */
   constructor(seek, toggle) {
     Object.assign(this, { seek, toggle, running: null, total: 0 });
-    this.play = el("button", { type: "button", class: "quiet edge play", onclick: () => this.#run(!this.running) }, "Play");
-    this.scrub = el("input", { type: "range", min: 0, step: "any", id: "scrub", "aria-label": "Moment of the carving" });
+    this.play = el(
+      "button",
+      { type: "button", class: "quiet edge play", onclick: () => this.#run(!this.running) },
+      "Play",
+    );
+    this.scrub = el("input", {
+      type: "range",
+      min: 0,
+      step: "any",
+      id: "scrub",
+      "aria-label": "Moment of the carving",
+    });
     this.time = el("output", { for: "scrub" });
     this.legend = el("div", { class: "legend", role: "group", "aria-label": "Passes shown" });
     this.programs = el("p", { class: "programs" });
-    this.element = el("div", { class: "player" }, this.play, this.scrub, this.time, this.legend, this.programs);
+    this.element = el(
+      "div",
+      { class: "player" },
+      this.play,
+      this.scrub,
+      this.time,
+      this.legend,
+      this.programs,
+    );
     this.scrub.addEventListener("input", () => {
       this.#run(false);
       this.#go(Number(this.scrub.value));
@@ -34,7 +52,9 @@ export class Player {
     const present = new Set(arrays.kinds.data);
     const passes = kinds.map((kind, at) => present.has(at) && this.#pass(kind, at));
     this.legend.replaceChildren(...passes.filter(Boolean));
-    this.programs.textContent = programs.map(({ name, file, cutter, seconds }) => `${file ?? name}: ${cutter}, ${clock(seconds)}`).join(" · ");
+    this.programs.textContent = programs
+      .map(({ name, file, cutter, seconds }) => `${file ?? name}: ${cutter}, ${clock(seconds)}`)
+      .join(" · ");
     this.#go(total);
   }
 
@@ -60,7 +80,9 @@ export class Player {
 
   /** A hundredth of the whole a key press: `any` has no step of its own. */
   #key(event) {
-    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 10, PageDown: -10 }[event.key];
+    const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 10, PageDown: -10 }[
+      event.key
+    ];
     if (step === undefined) return;
     event.preventDefault();
     this.#run(false);

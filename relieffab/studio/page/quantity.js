@@ -1,6 +1,6 @@
 // Lengths and angles as people type them; the studio judges, the sliders only follow.
 
-const IN_MM = { "": 1, mm: 1, cm: 10, m: 1000, in: 25.4, '"': 25.4, ft: 304.8, um: 0.001, "µm": 0.001 };
+const IN_MM = { "": 1, mm: 1, cm: 10, m: 1000, in: 25.4, '"': 25.4, ft: 304.8, um: 0.001, µm: 0.001 };
 const IN_DEGREES = { "": 1, deg: 1, "°": 1, rad: 180 / Math.PI };
 
 /** Read "4mm", "0.25in" or "30deg" in mm or degrees; null if it is neither. */
@@ -15,7 +15,9 @@ export function quantity(text, unit) {
 export function pair(text) {
   const [first, second] = String(text ?? "").split(/\s*[x×]\s*/i);
   const unit = /[a-zµ"]+\s*$/i.exec(second ?? "")?.[0] ?? "";
-  const values = [/[a-zµ"]\s*$/i.test(first) ? first : first + unit, second].map((each) => quantity(each, "mm"));
+  const values = [/[a-zµ"]\s*$/i.test(first) ? first : first + unit, second].map((each) =>
+    quantity(each, "mm"),
+  );
   return values.includes(null) ? null : values;
 }
 

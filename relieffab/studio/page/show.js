@@ -47,13 +47,19 @@ export class Show {
       toolpaths: new ToolpathView(this.sun),
       deviation: new DeviationView(),
     };
-    for (const name of ["lines", "lambert", "depth"]) this.views[name].told = (at) => readout(at && place(at));
+    for (const name of ["lines", "lambert", "depth"])
+      this.views[name].told = (at) => readout(at && place(at));
     this.views.deviation.told = (at) => readout(at && `${place(at)}: ${deviation(at.value)}`);
     this.#trays(carved);
-    lead(byId("view"), byId("canvas"), () => this.stage.view, (ended) => {
-      if (ended) store.settle();
-      this.stage.draw();
-    });
+    lead(
+      byId("view"),
+      byId("canvas"),
+      () => this.stage.view,
+      (ended) => {
+        if (ended) store.settle();
+        this.stage.draw();
+      },
+    );
     store.listen(() => {
       this.views.model.place();
       this.stage.draw();

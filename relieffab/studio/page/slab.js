@@ -119,15 +119,38 @@ function fold({ heights, rows, cols }, index) {
 function block([x0, y0, x1, y1], thickness) {
   const [low, high] = [-thickness, 0];
   const walls = [
-    [[x0, y0], [x1, y0], [0, -1, 0]],
-    [[x1, y0], [x1, y1], [1, 0, 0]],
-    [[x1, y1], [x0, y1], [0, 1, 0]],
-    [[x0, y1], [x0, y0], [-1, 0, 0]],
+    [
+      [x0, y0],
+      [x1, y0],
+      [0, -1, 0],
+    ],
+    [
+      [x1, y0],
+      [x1, y1],
+      [1, 0, 0],
+    ],
+    [
+      [x1, y1],
+      [x0, y1],
+      [0, 1, 0],
+    ],
+    [
+      [x0, y1],
+      [x0, y0],
+      [-1, 0, 0],
+    ],
   ];
   const places = [];
   const normals = [];
   for (const [a, b, normal] of walls)
-    for (const [[x, y], z] of [[a, low], [b, low], [b, high], [a, low], [b, high], [a, high]]) {
+    for (const [[x, y], z] of [
+      [a, low],
+      [b, low],
+      [b, high],
+      [a, low],
+      [b, high],
+      [a, high],
+    ]) {
       places.push(x, y, z);
       normals.push(...normal);
     }

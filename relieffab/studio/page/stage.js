@@ -60,7 +60,8 @@ export function dispose(object) {
     each.geometry?.dispose();
     for (const material of [each.material].flat()) {
       if (!material) continue;
-      for (const uniform of Object.values(material.uniforms ?? {})) uniform.value?.isTexture && uniform.value.dispose();
+      for (const uniform of Object.values(material.uniforms ?? {}))
+        uniform.value?.isTexture && uniform.value.dispose();
       material.dispose();
     }
   });

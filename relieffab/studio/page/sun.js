@@ -14,7 +14,10 @@ export class Sun {
       host.setPointerCapture(event.pointerId);
       this.#follow(event);
     });
-    host.addEventListener("pointermove", (event) => host.hasPointerCapture(event.pointerId) && this.#follow(event));
+    host.addEventListener(
+      "pointermove",
+      (event) => host.hasPointerCapture(event.pointerId) && this.#follow(event),
+    );
     host.addEventListener("keydown", (event) => this.#key(event));
     this.#tell();
   }
@@ -59,6 +62,9 @@ export class Sun {
     this.dot.style.left = `${50 + 50 * x}%`;
     this.dot.style.top = `${50 - 50 * y}%`;
     this.host.setAttribute("aria-valuenow", Math.round((turn + 360) % 360));
-    this.host.setAttribute("aria-valuetext", height > 85 ? "straight above" : `from the ${way}, ${height} degrees high`);
+    this.host.setAttribute(
+      "aria-valuetext",
+      height > 85 ? "straight above" : `from the ${way}, ${height} degrees high`,
+    );
   }
 }

@@ -9,7 +9,11 @@ export class ViewTray {
   constructor(store) {
     this.store = store;
     this.buttons = Object.keys(VIEWS).map((name) =>
-      el("button", { type: "button", class: "quiet edge", "data-view": name, onclick: () => this.#look(name) }, name),
+      el(
+        "button",
+        { type: "button", class: "quiet edge", "data-view": name, onclick: () => this.#look(name) },
+        name,
+      ),
     );
     this.angles = el("output", { class: "angles" });
     const named = el("div", { class: "named", role: "group", "aria-label": "Named views" }, ...this.buttons);
@@ -21,7 +25,8 @@ export class ViewTray {
     const { settings } = this.store;
     const { azimuth, elevation, roll } = anglesOf(settings);
     const turned = Boolean(settings.azimuth || settings.elevation) || roll !== 0;
-    for (const button of this.buttons) button.setAttribute("aria-pressed", !turned && button.dataset.view === settings.view);
+    for (const button of this.buttons)
+      button.setAttribute("aria-pressed", !turned && button.dataset.view === settings.view);
     const degrees = (angle) => `${Number(angle.toFixed(1))}°`.replace("-", "−");
     this.angles.textContent = `azimuth ${degrees(azimuth)}, elevation ${degrees(elevation)}, roll ${degrees(roll)}`;
   }

@@ -33,7 +33,7 @@ ARGUMENTS = [
 WINDOW = {"width": 900, "height": 620}
 BEGUN = {"size": "40x30mm", "resolution": "160x120", "line_length": "2mm", "material": "foam"}
 BEGUN |= {"up": "y"}  # of a file of triangles alone it would have to be guessed
-PATIENCE = 240.0  # seconds: a studio that has never run compiles first
+PATIENCE = 400.0  # seconds: a studio that has never run compiles first
 
 
 class Person:
@@ -173,6 +173,7 @@ def person(browser, studio):
     context = browser.new_context(viewport=WINDOW, accept_downloads=True)
     person = Person(context.new_page(), studio.url)
     person.waits("studio.store.version > 0 && document.querySelectorAll('.field').length > 0")
+    person.sees("studio.asking.rest = 1e8")  # finer pictures have a test of their own
     yield person
     context.close()
     assert person.faults == []

@@ -23,7 +23,8 @@ def test_an_export_is_what_its_job_file_makes(carver, studio, tmp_path):
         carver.page.click("a[href='job.toml']")
     folder = next(studio.output.iterdir())
     assert str(folder) in carver.page.inner_text(".command")
-    assert loading.value.path().read_text() == (folder / "job.toml").read_text()
+    beside = loading.value.path().read_text().replace('"scarab.stl"', '"model/scarab.stl"')
+    assert beside == (folder / "job.toml").read_text()
     assert run(["make", str(folder / "job.toml"), "-o", str(tmp_path / "made")]) == 0
     made = tifffile.imread(tmp_path / "made" / "relief.tiff")
     assert 2.0 < -made.min() <= 2.5401

@@ -53,7 +53,7 @@ def test_the_newest_question_is_answered_last_and_alone(person):
             if (question % 3 === 0) await new Promise((resolve) => setTimeout(resolve, 1));
           }
           newest.ask(200);
-          while (newest.running) await new Promise((resolve) => setTimeout(resolve, 1));
+          while (newest.flight) await new Promise((resolve) => setTimeout(resolve, 1));
           return [shown, most];
         }"""
     )
@@ -61,6 +61,30 @@ def test_the_newest_question_is_answered_last_and_alone(person):
     assert shown[-1] == 200
     assert shown == sorted(shown)
     assert 3 < len(shown) < 150
+
+
+def test_what_gives_way_is_not_waited_for_and_not_shown(person):
+    shown = person.page.evaluate(
+        """async () => {
+          const { Newest } = await import('./page/newest.js');
+          const shown = [];
+          const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+          const newest = new Newest({
+            send: async ({ ms, name }) => (await pause(ms), name),
+            show: (answer) => shown.push(answer),
+            fail: () => {},
+            yields: ({ fine }) => fine,
+          });
+          newest.ask({ name: 'fine', ms: 200, fine: true });
+          await pause(5);
+          newest.ask({ name: 'coarse', ms: 5 });
+          await pause(60);
+          shown.push('soon');
+          await pause(250);
+          return shown;
+        }"""
+    )
+    assert shown == ["coarse", "soon"]
 
 
 def test_undo_and_redo_go_the_same_way(person):

@@ -57,14 +57,16 @@ def test_whatever_is_pressed_the_last_asked_is_the_last_shown(carver):
     for tab in ("panel", "relief", "lines", "model"):
         carver.goes_to(tab)
     heap, card = carver.sees(HEAP), carver.sees(CARD)
+    carver.sees("studio.asking.rest = 300")
     end, count = time.monotonic() + 60 * minutes, 0
     while count < 50 or time.monotonic() < end:
         chance.choice(ACTS)(carver, chance)
         count += 1
         if count % 200 == 0:
-            carver.calm()
+            carver.waits("document.getElementById('view').getAttribute('aria-busy') === 'false'")
             print(f"{count} events, heap {carver.sees(HEAP):.1f} MB, card {carver.sees(CARD)}")
     # A depth beyond the stock is refused, and said to be; whatever comes next settles it.
+    carver.sees("studio.asking.rest = 1e8")
     carver.sees("studio.store.change({depth: '2.2mm'})")
     for tab in ("panel", "lines", "model", "relief"):
         carver.goes_to(tab)

@@ -74,6 +74,17 @@ def test_the_relief_follows_a_slider(carver):
     assert np.allclose(carver.heights(), shallow, atol=0.02)
 
 
+def test_what_is_shown_grows_finer_when_the_hand_rests(carver):
+    carver.goes_to("relief")
+    coarse = carver.heights()
+    carver.sees("studio.asking.rest = 10")
+    carver.sees("studio.store.change({depth: '2mm'})")
+    carver.waits("studio.asking.fine.relief === studio.store.version")
+    carver.calm()
+    assert carver.heights().shape[1] > 1.5 * coarse.shape[1]
+    assert carver.is_shown_what_it_asked()["depth_mm"] == 2
+
+
 def test_the_light_changes_the_picture_alone(carver):
     carver.goes_to("relief")
     heights, before = carver.heights(), carver.picture()

@@ -31,6 +31,10 @@ export class DeviationView extends FlatView {
     const [x, y] = frame.origin_mm;
     this.colouring.uniforms.limit.value = frame.deviation_mm.limit;
     const half = pitch / 2; // values are at nodes: each stands for the pixel round it
-    this.take(array, [x - half, y - (rows - 0.5) * pitch, x + (cols - 0.5) * pitch, y + half], pair(settings.size));
+    this.take(
+      array,
+      [x - half, y - (rows - 0.5) * pitch, x + (cols - 0.5) * pitch, y + half],
+      pair(settings.size),
+    );
   }
 }

@@ -1,6 +1,18 @@
 // A picture of the panel, looked at straight on: the layers and the deviation.
 
-import { Color, DataTexture, LinearFilter, Mesh, NearestFilter, PlaneGeometry, RedFormat, FloatType, Scene, ShaderMaterial, UnsignedByteType } from "../three.js";
+import {
+  Color,
+  DataTexture,
+  LinearFilter,
+  Mesh,
+  NearestFilter,
+  PlaneGeometry,
+  RedFormat,
+  FloatType,
+  Scene,
+  ShaderMaterial,
+  UnsignedByteType,
+} from "../three.js";
 import { FlatRig } from "../rigs.js";
 import { dispose } from "../stage.js";
 

@@ -7,7 +7,8 @@ import { dispose } from "../stage.js";
 import { FlatView } from "./flat.js";
 
 // Warm greys: a picture on the same paper.
-const GREY = "vec3 colour(float value) { return mix(vec3(0.11, 0.1, 0.085), vec3(0.984, 0.973, 0.945), value); }";
+const GREY =
+  "vec3 colour(float value) { return mix(vec3(0.11, 0.1, 0.085), vec3(0.984, 0.973, 0.945), value); }";
 // A blank sheet: the strokes themselves are drawn on it, sharper than their picture.
 const SHEET = "vec3 colour(float value) { return vec3(0.984, 0.973, 0.945); }";
 
@@ -40,8 +41,7 @@ export class LinesView extends FlatView {
     this.take(arrays.lines, border(frame, arrays.lines.shape), frame.size_mm);
     if (this.strokes) dispose(this.strokes);
     const width = quantity(settings.line_width, "mm") ?? 0.6;
-    const flat = { ...arrays.stroke_points, data: arrays.stroke_points.data };
-    this.strokes = ribbons(flat, arrays.stroke_starts, width, ink());
+    this.strokes = ribbons(arrays.stroke_points, arrays.stroke_starts, width, ink());
     this.strokes.material.depthTest = false;
     this.strokes.material.uniforms.colour.value.set(colourOf("--drawn"));
     this.strokes.renderOrder = 1;

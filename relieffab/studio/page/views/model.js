@@ -1,6 +1,15 @@
 // The model as it will be carved: turned by hand, its drawn lines with it.
 
-import { BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineLoop, Matrix4, Mesh, Scene } from "../three.js";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  LineBasicMaterial,
+  LineLoop,
+  Matrix4,
+  Mesh,
+  Scene,
+} from "../three.js";
 import { colourOf } from "../dom.js";
 import { anglesOf, placement, roomOf } from "../placement.js";
 import { quantity } from "../quantity.js";
@@ -131,7 +140,10 @@ export class ModelView {
     const moved = matrix.clone().multiply(this.asked.clone().invert());
     this.strokes.matrix.makeTranslation(0, 0, ABOVE).multiply(moved);
     this.strokes.matrixWorldNeedsUpdate = true;
-    const away = moved.elements.reduce((most, value, at) => Math.max(most, Math.abs(value - (at % 5 ? 0 : 1))), 0);
+    const away = moved.elements.reduce(
+      (most, value, at) => Math.max(most, Math.abs(value - (at % 5 ? 0 : 1))),
+      0,
+    );
     // What the drawing hides is hidden in its own view alone.
     const stale = away > 0.02;
     this.strokes.material.depthTest = stale;

@@ -65,8 +65,16 @@ function faceNormals(points, index) {
   const area = new Float32Array(index.length / 3);
   for (let face = 0; face < index.length; face += 3) {
     const [a, b, c] = [3 * index[face], 3 * index[face + 1], 3 * index[face + 2]];
-    const [ux, uy, uz] = [points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]];
-    const [vx, vy, vz] = [points[c] - points[a], points[c + 1] - points[a + 1], points[c + 2] - points[a + 2]];
+    const [ux, uy, uz] = [
+      points[b] - points[a],
+      points[b + 1] - points[a + 1],
+      points[b + 2] - points[a + 2],
+    ];
+    const [vx, vy, vz] = [
+      points[c] - points[a],
+      points[c + 1] - points[a + 1],
+      points[c + 2] - points[a + 2],
+    ];
     const normal = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
     const length = Math.hypot(...normal);
     area[face / 3] = length;

@@ -1,6 +1,16 @@
 // The programs over the stock that they carve, up to a moment.
 
-import { BufferAttribute, BufferGeometry, LatheGeometry, LineSegments, Mesh, ShaderMaterial, Color, Vector2, Vector3 } from "../three.js";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  LatheGeometry,
+  LineSegments,
+  Mesh,
+  ShaderMaterial,
+  Color,
+  Vector2,
+  Vector3,
+} from "../three.js";
 import { Slab } from "../slab.js";
 import { dispose } from "../stage.js";
 import { stone } from "../stone.js";
@@ -82,7 +92,11 @@ export class ToolpathView extends SolidView {
     if (this.tool) dispose(this.tool);
     const { profile, diameter_mm: diameter = 3 } = this.frame.programs[which] ?? {};
     const half = diameter / 2;
-    const outline = profile ?? [[0, 0], [half, 0], [half, 6 * half]];
+    const outline = profile ?? [
+      [0, 0],
+      [half, 0],
+      [half, 6 * half],
+    ];
     const points = outline.map(([radius, height]) => new Vector2(radius, height));
     this.tool = new Mesh(new LatheGeometry(points, 32), stone());
     this.tool.geometry.rotateX(Math.PI / 2);
@@ -118,7 +132,12 @@ function thread(kinds, total) {
     depthWrite: false,
     uniforms: {
       palette: { value: colours },
-      shown: { value: kinds.map((kind) => (kind === "rapid" ? 0 : 1)).concat(Array(MOST).fill(1)).slice(0, MOST) },
+      shown: {
+        value: kinds
+          .map((kind) => (kind === "rapid" ? 0 : 1))
+          .concat(Array(MOST).fill(1))
+          .slice(0, MOST),
+      },
       now: { value: total },
       fresh: { value: Math.max(FRESH * total, 1e-3) },
     },
@@ -161,6 +180,8 @@ function between(data, next, seconds) {
   const [b, a] = [Math.min(next, count - 1), Math.max(0, Math.min(next, count - 1) - 1)];
   const [start, end] = [data[4 * a + 3], data[4 * b + 3]];
   const share = end > start ? Math.min(1, (seconds - start) / (end - start)) : 1;
-  const [x, y, z] = [0, 1, 2].map((axis) => data[4 * a + axis] + share * (data[4 * b + axis] - data[4 * a + axis]));
+  const [x, y, z] = [0, 1, 2].map(
+    (axis) => data[4 * a + axis] + share * (data[4 * b + axis] - data[4 * a + axis]),
+  );
   return new Vector3(x, y, z);
 }
