@@ -74,7 +74,7 @@ def run(folder: Path, width: int = 1536) -> Path:
     ]
     high = max(len(image) for image in images)
     filled = [np.pad(i, ((high - len(i), 0), (0, 0), (0, 0)), mode="edge") for i in images]
-    picture = folder / "13_round.png"
+    picture = folder / "15_round.png"
     picture.write_bytes(png8(np.concatenate(filled, axis=1)))
     return picture
 

@@ -47,7 +47,7 @@ def run(folder: Path, width: int = 1024) -> Path:
         for name, style in STYLES.items()
     ]
     rows = [np.concatenate(tiles[k : k + 4], axis=1) for k in (0, 4)]
-    picture = folder / "12_styles.png"
+    picture = folder / "14_styles.png"
     picture.write_bytes(png8(smaller(np.concatenate(rows), 1300)))
     return picture
 

@@ -61,7 +61,7 @@ def run(folder: Path, width: int = 640) -> Path:
     relief, _ = rf.make_relief(layers, rf.Carving(depth=3.0, wall_angle=40.0))
     flat = np.uint8(255 * ~layers.mask)[..., None].repeat(3, axis=2)
     columns.append(np.concatenate([flat, hillshade(relief)]))
-    target = folder / "10_images.png"
+    target = folder / "13_images.png"
     target.write_bytes(png8(np.concatenate(columns, axis=1)))
     return target
 
