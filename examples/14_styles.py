@@ -48,7 +48,7 @@ def run(folder: Path, width: int = 1024) -> Path:
     ]
     rows = [np.concatenate(tiles[k : k + 4], axis=1) for k in (0, 4)]
     picture = folder / "14_styles.png"
-    picture.write_bytes(png8(smaller(np.concatenate(rows), 1300)))
+    picture.write_bytes(png8(smaller(np.concatenate(rows), 1500)))
     return picture
 
 
