@@ -2,7 +2,8 @@
 
 import logging
 import sys
-from collections.abc import Collection
+import time
+from collections.abc import Callable, Collection
 from concurrent.futures import CancelledError, Future
 from types import TracebackType
 from typing import Any
@@ -26,6 +27,8 @@ class Cluster:
         Of the scheduler, such as tcp://host:8786.
     work : callable
         What they do with a task.
+    tell : callable
+        Given a sentence when there is nobody left to do the work, and when there is again.
 
     Raises
     ------
@@ -35,7 +38,9 @@ class Cluster:
 
     tries = 1
 
-    def __init__(self, address: str, work: Work = carry_out) -> None:
+    def __init__(
+        self, address: str, work: Work = carry_out, tell: Callable[[str], None] = lambda _: None
+    ) -> None:
         try:
             from distributed import Client, KilledWorker
         except ImportError:
@@ -68,6 +73,7 @@ class Cluster:
             ) from fault
         limits = [worker["memory_limit"] for worker in self._workers().values()]
         self.room = max(limits) if all(limits) else sys.maxsize
+        self._lack = _Lack(tell, address)
 
     def _workers(self) -> dict[str, Any]:
         return self._client.scheduler_info(n_workers=-1)["workers"]  # type: ignore[no-any-return]
@@ -85,7 +91,9 @@ class Cluster:
 
     def free(self, running: Collection[Task]) -> int:
         """Tell how much memory a task may take where there are more workers than tasks."""
-        return self.room if len(running) < max(1, len(self._workers())) else -1
+        workers = len(self._workers())
+        self._lack.look(workers)
+        return self.room if len(running) < max(1, workers) else -1
 
     def submit(self, task: Task) -> "Future[Result]":
         """Hand a task to the scheduler."""
@@ -105,6 +113,38 @@ class Cluster:
             )
         error = future.exception()
         return str(error) if isinstance(error, self._killed) else ""
+
+
+class _Lack:
+    """Since when a cluster has been without workers, and whether that has been told.
+
+    Parameters
+    ----------
+    tell : callable
+    address : str
+        Of the scheduler.
+    """
+
+    def __init__(self, tell: Callable[[str], None], address: str) -> None:
+        self._tell, self._address = tell, address
+        self._since: float | None = None
+        self._told = False
+
+    def look(self, workers: int) -> None:
+        """Take note of how many workers there are now."""
+        if workers:
+            if self._told:
+                self._tell("the cluster has workers again")
+            self._since, self._told = None, False
+            return
+        if self._since is None:
+            self._since = time.monotonic()
+        if not self._told and time.monotonic() - self._since >= PATIENCE:
+            self._told = True
+            self._tell(
+                f"the cluster has lost all its workers; waiting for others "
+                f"(dask worker {self._address}; Ctrl-C stops, and what is finished stays)"
+            )
 
 
 def _pass_on(asked: Any, future: "Future[Result]") -> None:

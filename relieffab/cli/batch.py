@@ -89,7 +89,7 @@ def _engine(
             )
         from relieffab.catalogue.cluster import Cluster
 
-        return lambda _: Cluster(scheduler)
+        return lambda _: Cluster(scheduler, tell=console.message)
     if workers is not None and workers < 1:
         raise InputError("there must be a worker", found=str(workers), where="--workers")
     room = units.memory(memory) if memory is not None else int(SHARE * machine_memory())

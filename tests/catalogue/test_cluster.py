@@ -1,5 +1,6 @@
 import os
 import signal
+import time
 
 import pytest
 
@@ -63,3 +64,38 @@ def test_a_cluster_without_workers(monkeypatch):
         pytest.raises(InputError, match="no workers"),
     ):
         Cluster(cluster.scheduler_address)
+
+
+def test_a_cluster_that_loses_all_workers_says_that_it_waits_and_goes_on(tmp_path, monkeypatch):
+    def work(task):
+        return {"name": task.name}
+
+    told = []
+    with (
+        distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, dashboard_address=None, memory_limit="4GiB"
+        ) as local,
+        Cluster(local.scheduler_address, work, told.append) as engine,
+    ):
+        monkeypatch.setattr("relieffab.catalogue.cluster.PATIENCE", 0.5)
+        assert told == []
+        local.scale(0)
+        until(lambda: engine.free([]) >= 0 and told)
+        for _ in range(3):
+            engine.free([])
+        assert len(told) == 1
+        assert "lost all its workers; waiting" in told[0]
+        assert local.scheduler_address in told[0]
+        future = engine.submit(Task("late", {}, "relief", "", tmp_path, "", 0))
+        local.scale(1)
+        assert future.result(timeout=120) == {"name": "late"}
+        engine.free([])
+        assert told[1:] == ["the cluster has workers again"]
+
+
+def until(happens):
+    """Look again and again, for a minute."""
+    end = time.monotonic() + 60
+    while not happens():
+        assert time.monotonic() < end
+        time.sleep(0.1)

@@ -9,7 +9,7 @@ import sys
 import threading
 import time
 
-import httpx
+import httpx2
 import pytest
 
 from relieffab.cli.main import run
@@ -42,7 +42,7 @@ def started(ball, tmp_path):
 
 def listen(address, begun):
     """Follow the events until the studio ends them, as the page does."""
-    with httpx.stream("GET", address + "events", timeout=120) as stream:
+    with httpx2.stream("GET", address + "events", timeout=120) as stream:
         for line in stream.iter_lines():
             if '"layers"' in line:
                 begun.set()
@@ -56,18 +56,18 @@ def upload(address):
             yield b"v 0 0 0\n"
             time.sleep(0.05)
 
-    with contextlib.suppress(httpx.HTTPError):
-        httpx.post(address + "model", params={"name": "slow.obj"}, content=drops(), timeout=120)
+    with contextlib.suppress(httpx2.HTTPError):
+        httpx2.post(address + "model", params={"name": "slow.obj"}, content=drops(), timeout=120)
 
 
 def test_it_serves_a_page_and_ctrl_c_ends_it_and_all_it_began(started, tmp_path):
     process, address, scratch = started
     assert address.startswith("http://127.0.0.1:")
-    answer = httpx.post(address + "preview", json={"ask": 1, "want": ["layers"]}, timeout=300)
+    answer = httpx2.post(address + "preview", json={"ask": 1, "want": ["layers"]}, timeout=300)
     assert unpack(answer.content)[0]["ask"] == 1
-    assert httpx.get(address.replace("127.0.0.1", "localhost") + "state").status_code == 200
-    assert httpx.get(address + "state", headers={"host": "evil.example"}).status_code == 421
-    assert httpx.get(address[:-2] + "/state").status_code == 404
+    assert httpx2.get(address.replace("127.0.0.1", "localhost") + "state").status_code == 200
+    assert httpx2.get(address + "state", headers={"host": "evil.example"}).status_code == 421
+    assert httpx2.get(address[:-2] + "/state").status_code == 404
     begun = threading.Event()
     others = [
         threading.Thread(target=listen, args=(address, begun)),
@@ -75,7 +75,7 @@ def test_it_serves_a_page_and_ctrl_c_ends_it_and_all_it_began(started, tmp_path)
     ]
     for other in others:
         other.start()
-    assert httpx.post(address + "export", json={}).status_code == 202
+    assert httpx2.post(address + "export", json={}).status_code == 202
     assert begun.wait(120)
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)

@@ -9,7 +9,7 @@ from relieffab.gcode.simulate import simulate
 from relieffab.grid import Grid
 from relieffab.job.show.lit import Lit
 from relieffab.job.show.maker import Run, run_of
-from relieffab.job.show.shown import Shown
+from relieffab.job.show.shown import Shown, stock_facts
 from relieffab.picture.stone import shade
 from relieffab.progress import Progress, silent
 
@@ -40,6 +40,8 @@ def show_program(
     grid = Grid.on_panel((stock.width, stock.height), (PIXELS, PIXELS))
     carved = simulate(run.programs, run.cutters, grid, stock, refine=1, progress=progress)
     heights = carved.heights.astype(float)
+    if stock.radius:  # its relief upright, as `relieffab.relief.laid.upright` lays it
+        heights = heights.T
     image = shade(heights, carved.grid.pitch, lit.light, texture=lit.texture)
     before = [one.name for one in run.programs if one.name != path.name]
     notes = list(carved.crashes)
@@ -54,7 +56,7 @@ def _facts(run: Run, heights: np.ndarray) -> dict[str, object]:
     return {
         "cutters": [cutter.name for cutter in run.cutters[-len(run.asked) :]],
         "machine": run.machine.name,
-        "stock_mm": [stock.width, stock.height, stock.thickness],
+        **stock_facts(stock),
         "work_zero_mm": list(stock.work_zero),
         "bounds_mm": [
             boxes[:, 0].min(axis=0).round(4).tolist(),

@@ -12,7 +12,8 @@ from relieffab.job.folder import LAYERS
 from relieffab.job.report import read_report
 from relieffab.job.sheet.heed import heeds
 from relieffab.job.show.image import read_image
-from relieffab.job.show.shown import Shown
+from relieffab.job.show.shown import Shown, stock_facts
+from relieffab.stock import Stock
 
 PAGE = "report.html"
 
@@ -44,8 +45,7 @@ def _facts(report: Mapping[str, Any]) -> dict[str, Any]:
     if "relief" in report:
         facts["depth_mm"] = report["relief"]["depth_mm"]
     if "slab" in report:
-        slab = report["slab"]
-        facts["stock_mm"] = [slab[name] for name in ("width", "height", "thickness")]
+        facts |= stock_facts(Stock.of(report["slab"]))
     if report.get("programs"):
         facts["machine"] = report["machine"]["name"]
         facts["material"] = report["material"]["name"]

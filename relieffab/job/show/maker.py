@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -95,9 +96,19 @@ def _alone(path: Path, cutter: str | None, machine: str | None) -> Run:
     text = path.read_text(encoding="latin-1")
     told = header(text)
     own = profiles.machine(machine or told.get("machine", "").split(",")[0] or "3018-prover")
-    parts = read_program(text, name=path.name, dialect=dialect(own.dialect)).by_tool()
+    stock = _told_stock(told)
+    if stock is None and re.search(r"^[^(;]*A-?[\d.]", text, re.MULTILINE):
+        raise InputError(
+            "the program turns a rotary axis, and does not tell the stock that it turns",
+            expected="`stock: round, ...` at its head, as programs of this tool have it",
+            where=str(path),
+        )
+    radius = stock.radius if stock else 0.0
+    parts = read_program(
+        text, name=path.name, dialect=dialect(own.dialect), radius=radius
+    ).by_tool()
     cuts = any((part.points[:, 2] < 0).any() for part in parts)
-    if not cuts and _told_stock(told) is None:
+    if not cuts and stock is None:
         raise InputError("the program cuts nothing: it never goes below Z0", where=str(path))
     names = [told[key] for key in sorted(told) if key.startswith("cutter")]
     names = [cutter] if cutter else names
@@ -110,8 +121,7 @@ def _alone(path: Path, cutter: str | None, machine: str | None) -> Run:
             hint="--cutter NAME, see `relieffab machines cutters`",
         )
     cutters = tuple(profiles.cutter(name.split(",")[0]) for name in names)
-    stock = _told_stock(told) or _stock_round(parts, cutters)
-    return Run(parts, cutters, parts, own, stock)
+    return Run(parts, cutters, parts, own, stock or _stock_round(parts, cutters))
 
 
 def header(text: str) -> dict[str, str]:
@@ -133,14 +143,21 @@ def header(text: str) -> dict[str, str]:
 
 
 def _told_stock(told: Mapping[str, str]) -> Stock | None:
-    size = re.fullmatch(r"([\d.]+) x ([\d.]+) x ([\d.]+) mm", told.get("stock", ""))
     zero = re.match(r"X ([-\d.]+) Y ([-\d.]+) mm .*Z ([-\d.]+) mm", told.get("work zero", ""))
-    if size is None or zero is None:
+    size = re.fullmatch(r"([\d.]+) x ([\d.]+) x ([\d.]+) mm", told.get("stock", ""))
+    turned = re.match(r"round, ([\d.]+) mm thick, ([\d.]+) mm along X", told.get("stock", ""))
+    if zero is None:
+        return None
+    x, y, z = map(float, zero.groups())
+    if turned is not None:
+        # How far round its figure goes is not told: the whole face is.
+        radius, length = float(turned[1]) / 2, float(turned[2])
+        return Stock(length, 2 * pi * radius, radius, (x, y, z), radius=radius)
+    if size is None:
         return None
     width, height, thickness = map(float, size.groups())
-    x, y, z = map(float, zero.groups())
-    turned = told.get("placing", "").startswith("turn")
-    return Stock(width, height, thickness, (x, y, z), turned=turned)
+    half = told.get("placing", "").startswith("turn")
+    return Stock(width, height, thickness, (x, y, z), turned=half)
 
 
 def _stock_round(parts: tuple[Program, ...], cutters: tuple[Cutter, ...]) -> Stock:

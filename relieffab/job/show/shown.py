@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relieffab.stock import Stock
+
 
 @dataclass(frozen=True, eq=False)
 class Shown:
@@ -31,3 +33,10 @@ class Shown:
     image: NDArray[np.uint8] | None = None
     page: Path | None = None
     notes: tuple[str, ...] = field(default=())
+
+
+def stock_facts(stock: Stock) -> dict[str, Any]:
+    """Say how large a stock is; of a round one, its thickness and how long it is."""
+    if stock.radius:
+        return {"diameter_mm": 2 * stock.radius, "length_mm": stock.width}
+    return {"stock_mm": [stock.width, stock.height, stock.thickness]}
