@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import relieffab as rf
-from relieffab.picture import hillshade, png8, smaller
+from relieffab.picture import hillshade, png_small, smaller
 
 STYLES = {
     "polished, the ground pecked": rf.Style(ground="pecked"),
@@ -48,7 +48,7 @@ def run(folder: Path, width: int = 1024) -> Path:
     ]
     rows = [np.concatenate(tiles[k : k + 4], axis=1) for k in (0, 4)]
     picture = folder / "14_styles.png"
-    picture.write_bytes(png8(smaller(np.concatenate(rows), 1500)))
+    picture.write_bytes(png_small(smaller(np.concatenate(rows), 1500)))
     return picture
 
 
