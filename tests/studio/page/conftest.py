@@ -168,13 +168,17 @@ def model(tmp_path_factory):
 
 
 @pytest.fixture
-def person(browser, studio):
-    """Somebody who has just opened the page; whatever it complained of fails the test."""
+def person(browser, studio, tmp_path):
+    """Somebody who has just opened the page; whatever it complained of fails the test.
+
+    What it showed last is kept among pytest's own folders, last.png, to be looked at.
+    """
     context = browser.new_context(viewport=WINDOW, accept_downloads=True)
     person = Person(context.new_page(), studio.url)
     person.waits("studio.store.version > 0 && document.querySelectorAll('.field').length > 0")
     person.sees("studio.asking.rest = 1e8")  # finer pictures have a test of their own
     yield person
+    person.page.screenshot(path=tmp_path / "last.png")
     context.close()
     assert person.faults == []
 
