@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 Box = tuple[Floats, Floats]
 
 LARGEST = 400.0, 330.0  # pixels of the stock, and the machine's travel where that is drawn
+LAID_OUT = 300.0, 230.0  # of a round stock's face
 MARGIN = 46.0
 ROOMY = 1.7  # times the stock's side; a larger travel is not drawn
 
@@ -119,7 +120,7 @@ def _sheet(plan: Plan, reach: Box | None) -> tuple[Drawing, Sight]:
         low, high = np.minimum(low, reach[0]), np.maximum(high, reach[1])
         if stock.turned:
             low, high = (stock.width, stock.height) - high, (stock.width, stock.height) - low
-    scale = float(min(LARGEST / (high - low)))
+    scale = float(min((LAID_OUT if stock.radius else LARGEST) / (high - low)))
     wide, tall = (high - low) * scale
     x, y = Sight(stock, scale, (-low[0] * scale, high[1] * scale))(stock.work_zero[:2])[0]
     arrow = _arrow(stock, scale)
