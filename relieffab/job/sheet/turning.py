@@ -77,8 +77,8 @@ def across(stock: Stock, bent: Round, depth: float, letter: str) -> Drawing:
         Its bore.
     depth : float
         Of the relief, mm; 0 where there is none.
-    letter : {'A', 'Y'}
-        The word of the rotary axis.
+    letter : {'A', 'Y', ''}
+        The word of the rotary axis; empty where no machine is known.
     """
     scale = DISC / stock.radius
     middle = np.array([96.0 + DISC, ABOVE + DISC])
@@ -93,13 +93,14 @@ def across(stock: Stock, bent: Round, depth: float, letter: str) -> Drawing:
         inner = _arc(middle, DISC - depth * scale, first, last)
         page.polyline("cut", [*outer, *inner[::-1]], closed=True)
     page.circle("measure", middle, 1.5)
-    _turn(page, middle, letter)
     left, right = middle[0] - DISC, middle[0] + DISC
     words = f"{mm(bent.diameter)} mm"
     page.across(left, right, middle[1] + DISC + 22, words, from_y=middle[1])
     page.words.append(Word(4, middle[1] + DISC + 40, "operator's side", "start"))
     _zero(page, (middle[0], middle[1] - DISC - stock.work_zero[2] * scale), "", "Z")
-    page.words.append(Word(middle[0] - 10, ABOVE - 6, f"{letter} 0", "end"))
+    if letter:
+        page.words.append(Word(middle[0] - 10, ABOVE - 6, f"{letter} 0", "end"))
+        _turn(page, middle, letter)
     return page
 
 

@@ -66,6 +66,12 @@ def test_work_turns_against_the_way_of_the_cutter():
     assert ends["A"] > 0 > ends["Y"]
 
 
+def test_where_no_machine_is_known_nothing_turns():
+    drawing = turning.across(Stock(45, 60, 20, radius=20), Round(60, 45, 40), 3.0, "")
+    assert points(drawing, "turn") == []
+    assert texts(drawing) == {"Z", "40 mm", "operator's side"}
+
+
 def test_work_zero_on_the_axis_is_drawn_there():
     stock = Stock(45, 60, 20, (0, 0, -20), radius=20)
     drawing = turning.across(stock, Round(60, 45, 40), 3.0, "A")
