@@ -59,8 +59,9 @@ def along(
     foot = top + thick
     page.across(LEFT, right, foot + 22, f"{mm(stock.width)} mm", from_y=foot)
     page.down(top, foot, 0.3 * LEFT, f"{mm(bent.diameter)} mm", from_x=LEFT)
-    page.words.append(Word(LEFT, foot + 40, "figure's top", "start"))
-    page.words.append(Word(right, foot + 40, "figure's foot", "end"))
+    within = min(20.0, long / 2 - 4)  # so that the two keep apart on a short stock
+    page.words.append(Word(LEFT + within, foot + 40, "figure's top", "end"))
+    page.words.append(Word(right - within, foot + 40, "figure's foot", "start"))
     at = LEFT + stock.work_zero[0] * scale, top - stock.work_zero[2] * scale
     _zero(page, at, "X", "Z")
     return page
