@@ -17,6 +17,9 @@ from relieffab.errors import InputError
 if TYPE_CHECKING:
     from relieffab.job.show.shown import Shown
 
+KINDS = ("finding: ", "warning: ", "note: ")
+"""What a job's notes begin with."""
+
 
 def show(
     path: Annotated[Path, Parameter(help="a relief, solid, program, picture, or a job's folder")],
@@ -49,7 +52,7 @@ def show(
     with console.progress_bar() as progress:
         shown = shown_of(path, lit, cutter=cutter, machine=machine, progress=progress)
     for note in shown.notes:
-        console.message(f"note: {note}")
+        console.message(note if note.startswith(KINDS) else f"note: {note}")
     seen = _write(shown, path, output)
     if as_json:
         print(json.dumps({"kind": shown.kind, **shown.facts, "shown": str(seen)}, indent=2))

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from relieffab.errors import InputError
-from relieffab.gcode.header import harmless
+from relieffab.gcode.header import commented, machine_words, turning_words, zero_words
 from relieffab.gcode.limits import travel_findings
 from relieffab.gcode.read import read_program
 from relieffab.gcode.setup import Setup
@@ -112,13 +112,12 @@ def probe_program(setup: Setup, plate: float) -> str:
 
 
 def _head(setup: Setup, what: str) -> Iterator[str]:
-    sign = setup.post.dialect.comments
-    before, after = ("(", ")") if sign == "(" else ("; ", "")
-    x, y, z = setup.stock.work_zero
     placing = () if setup.position is None else (setup.position.placing,)
-    zero = f"work zero: X {x:g} Y {y:g} Z {z:g} mm from the near left corner's face"
-    for text in (what, *placing, zero):
-        yield f"{before}{harmless(text)}{after}"
+    facts = [f"work zero: {zero_words(setup)}"]
+    if setup.stock.radius:  # without these its A means nothing
+        facts[:0] = [f"machine: {machine_words(setup)}", f"stock: {turning_words(setup)}"]
+    for text in (what, *placing, *facts):
+        yield from commented(text, setup)
 
 
 def _modes(setup: Setup, *, moving: bool = False) -> list[str]:

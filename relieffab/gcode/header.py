@@ -18,11 +18,16 @@ def comments(
     paths: Sequence[Toolpath], program: Program, setup: Setup, more: Mapping[str, str]
 ) -> Iterator[str]:
     """Say what a program is, so that a person can check it and make it again."""
+    for name, value in [*_facts(paths, program, setup).items(), *more.items()]:
+        yield from commented(f"{name}: {value}", setup)
+
+
+def commented(text: str, setup: Setup) -> Iterator[str]:
+    """Write a sentence as comments of the setup's dialect, none too long for a line."""
     sign = setup.post.dialect.comments
     before, after = ("(", ")") if sign == "(" else ("; ", "")
-    for name, value in [*_facts(paths, program, setup).items(), *more.items()]:
-        for part in textwrap.wrap(harmless(f"{name}: {value}"), _WIDTH):
-            yield f"{before}{part}{after}"
+    for part in textwrap.wrap(harmless(text), _WIDTH):
+        yield f"{before}{part}{after}"
 
 
 def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[str, str]:
@@ -40,15 +45,13 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
         )
     seconds = estimate(program, machine)
     low, high = program.bounds
-    x, y, z = stock.work_zero
-    corner = "the figure's top right" if stock.radius else "the near left corner"
     size = f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm"
     return facts | {
         **_position(setup),
-        "machine": f"{machine.name}, {setup.post.dialect.title}",
+        "machine": machine_words(setup),
         "material": setup.material.title,
-        "stock": _round(setup) or size,
-        "work zero": f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from the face",
+        "stock": turning_words(setup) or size,
+        "work zero": zero_words(setup),
         "bounds, mm": "  ".join(
             f"{axis} {a:.3f} to {b:.3f}" for axis, a, b in zip("XYZ", low, high, strict=True)
         ),
@@ -56,7 +59,19 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
     }
 
 
-def _round(setup: Setup) -> str:
+def machine_words(setup: Setup) -> str:
+    """Say for which machine and controller a program is."""
+    return f"{setup.machine.name}, {setup.post.dialect.title}"
+
+
+def zero_words(setup: Setup) -> str:
+    """Say where work zero is."""
+    x, y, z = setup.stock.work_zero
+    corner = "the figure's top right" if setup.stock.radius else "the near left corner"
+    return f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from the face"
+
+
+def turning_words(setup: Setup) -> str:
     """Say how a round stock lies and which way it turns; nothing of a flat one."""
     stock, post = setup.stock, setup.post
     if not stock.radius:

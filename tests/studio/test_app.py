@@ -237,7 +237,7 @@ def test_panel_toolpaths_and_moments(loaded):
     assert "no toolpaths yet" in fault(loaded.get("carved", params={"at": 1}))["message"]
     header, arrays = frame(loaded.post("toolpaths", json={"ask": 2}))
     moves, kinds = arrays["moves"], arrays["kinds"]
-    assert header["kinds"] == ["rapid", "rough", "finish", "lines"]
+    assert header["kinds"] == ["rapid", "rough", "finish", "lines", "marks"]
     assert set(kinds) == {0, 1, 2, 3}
     assert moves.shape == (len(kinds), 4) and len(arrays["program_of"]) == len(kinds)
     assert (np.diff(moves[:, 3]) >= 0).all()

@@ -51,7 +51,7 @@ def _turning(report: Mapping[str, Any], stock: Stock, bent: Round, depth: float)
     box = plan.bounds_of(report.get("programs", []), stock)
     cut = (0.0, stock.width) if box is None else (float(box[0][0]), float(box[1][0]))
     safe = report["machine"]["safe_height"] if "machine" in report else 0.0
-    letter = second_of(report).letter
+    letter = second_of(report).letter if box is not None else ""
     return [
         ("From the operator's side, cut open", turning.along(stock, bent, depth, cut, safe)),
         (

@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 Box = tuple[Floats, Floats]
 
 LARGEST = 400.0, 330.0  # pixels of the stock, and the machine's travel where that is drawn
+LAID_OUT = 300.0, 230.0  # of a round stock's face
 MARGIN = 46.0
 ROOMY = 1.7  # times the stock's side; a larger travel is not drawn
 
@@ -101,17 +102,7 @@ def _reach(plan: Plan) -> Box | None:
 def draw(plan: Plan) -> Drawing:
     """Draw a stock from above."""
     stock, reach = plan.stock, _reach(plan)
-    low, high = np.zeros(2), np.array([stock.width, stock.height])
-    if reach is not None:
-        low, high = np.minimum(low, reach[0]), np.maximum(high, reach[1])
-        if stock.turned:
-            low, high = (stock.width, stock.height) - high, (stock.width, stock.height) - low
-    scale = float(min(LARGEST / (high - low)))
-    wide, tall = (high - low) * scale
-    corner = MARGIN - low[0] * scale, MARGIN / 2 + high[1] * scale
-    title = "The face laid out flat" if stock.radius else "The stock from above"
-    page = Drawing(wide + 1.5 * MARGIN, tall + 1.9 * MARGIN, title)
-    sight = Sight(stock, scale, corner)
+    page, sight = _sheet(plan, reach)
     _stock(page, plan, sight)
     _programs(page, plan, sight, reach)
     _measures(page, stock, sight)
@@ -119,6 +110,29 @@ def draw(plan: Plan) -> Drawing:
     if not stock.radius:
         page.words.append(Word(page.width / 2, page.height - 5, "operator's side"))
     return page
+
+
+def _sheet(plan: Plan, reach: Box | None) -> tuple[Drawing, Sight]:
+    """Lay out an empty page with room for all that is to be drawn."""
+    stock = plan.stock
+    low, high = np.zeros(2), np.array([stock.width, stock.height])
+    if reach is not None:
+        low, high = np.minimum(low, reach[0]), np.maximum(high, reach[1])
+        if stock.turned:
+            low, high = (stock.width, stock.height) - high, (stock.width, stock.height) - low
+    scale = float(min((LAID_OUT if stock.radius else LARGEST) / (high - low)))
+    wide, tall = (high - low) * scale
+    x, y = Sight(stock, scale, (-low[0] * scale, high[1] * scale))(stock.work_zero[:2])[0]
+    arrow = _arrow(stock, scale)
+    # The arrows of work zero want room, wherever on the stock it is.
+    down = plan.letter == "A"
+    above = max(MARGIN / 2, 0.0 if down else arrow + 16 - y)
+    below = max(0.0, arrow + 8 - (tall - y)) if down else 0.0
+    beside = max(MARGIN / 2, arrow + 20 - (wide - x))
+    corner = MARGIN - low[0] * scale, above + high[1] * scale
+    title = "The face laid out flat" if stock.radius else "The stock from above"
+    page = Drawing(MARGIN + wide + beside, above + tall + below + 1.4 * MARGIN, title)
+    return page, Sight(stock, scale, corner)
 
 
 def _box(low: Floats, high: Floats) -> list[tuple[float, float]]:
@@ -171,11 +185,16 @@ def _measures(page: Drawing, stock: Stock, sight: Sight) -> None:
     page.down(y0, y1, left, f"{mm(stock.height)} mm", from_x=x0)
 
 
+def _arrow(stock: Stock, scale: float) -> float:
+    """Length of the axes' arrows, pixels."""
+    return min(0.22 * min(LARGEST), 0.4 * scale * min(stock.width, stock.height))
+
+
 def _zero(page: Drawing, plan: Plan, sight: Sight) -> None:
     """Draw work zero and the ways of the axes from it, as the machine has them."""
     stock = plan.stock
     x, y = sight(stock.work_zero[:2])[0]
-    reach = min(0.22 * min(LARGEST), 0.4 * sight.scale * min(stock.width, stock.height))
+    reach = _arrow(stock, sight.scale)
     up = y + reach if plan.letter == "A" else y - reach
     page.arrow("zero", (x, y), (x + reach, y))
     page.arrow("zero", (x, y), (x, up))

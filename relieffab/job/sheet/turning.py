@@ -59,8 +59,9 @@ def along(
     foot = top + thick
     page.across(LEFT, right, foot + 22, f"{mm(stock.width)} mm", from_y=foot)
     page.down(top, foot, 0.3 * LEFT, f"{mm(bent.diameter)} mm", from_x=LEFT)
-    page.words.append(Word(LEFT, foot + 40, "figure's top", "start"))
-    page.words.append(Word(right, foot + 40, "figure's foot", "end"))
+    within = min(20.0, long / 2 - 4)  # so that the two keep apart on a short stock
+    page.words.append(Word(LEFT + within, foot + 40, "figure's top", "end"))
+    page.words.append(Word(right - within, foot + 40, "figure's foot", "start"))
     at = LEFT + stock.work_zero[0] * scale, top - stock.work_zero[2] * scale
     _zero(page, at, "X", "Z")
     return page
@@ -77,8 +78,8 @@ def across(stock: Stock, bent: Round, depth: float, letter: str) -> Drawing:
         Its bore.
     depth : float
         Of the relief, mm; 0 where there is none.
-    letter : {'A', 'Y'}
-        The word of the rotary axis.
+    letter : {'A', 'Y', ''}
+        The word of the rotary axis; empty where no machine is known.
     """
     scale = DISC / stock.radius
     middle = np.array([96.0 + DISC, ABOVE + DISC])
@@ -93,13 +94,14 @@ def across(stock: Stock, bent: Round, depth: float, letter: str) -> Drawing:
         inner = _arc(middle, DISC - depth * scale, first, last)
         page.polyline("cut", [*outer, *inner[::-1]], closed=True)
     page.circle("measure", middle, 1.5)
-    _turn(page, middle, letter)
     left, right = middle[0] - DISC, middle[0] + DISC
     words = f"{mm(bent.diameter)} mm"
     page.across(left, right, middle[1] + DISC + 22, words, from_y=middle[1])
     page.words.append(Word(4, middle[1] + DISC + 40, "operator's side", "start"))
     _zero(page, (middle[0], middle[1] - DISC - stock.work_zero[2] * scale), "", "Z")
-    page.words.append(Word(middle[0] - 10, ABOVE - 6, f"{letter} 0", "end"))
+    if letter:
+        page.words.append(Word(middle[0] - 10, ABOVE - 6, f"{letter} 0", "end"))
+        _turn(page, middle, letter)
     return page
 
 

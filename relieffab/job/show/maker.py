@@ -108,9 +108,9 @@ def _alone(path: Path, cutter: str | None, machine: str | None) -> Run:
         text, name=path.name, dialect=dialect(own.dialect), radius=radius
     ).by_tool()
     cuts = any((part.points[:, 2] < 0).any() for part in parts)
-    if not cuts and stock is None:
-        raise InputError("the program cuts nothing: it never goes below Z0", where=str(path))
     names = [told[key] for key in sorted(told) if key.startswith("cutter")]
+    if not cuts and (stock is None or not names):
+        raise InputError("the program cuts nothing: it never goes below Z0", where=str(path))
     names = [cutter] if cutter else names
     if len(names) != len(parts):
         raise InputError(

@@ -1,6 +1,7 @@
 """Style: which marks a relief bears; Marks: where they are, for the program that cuts them."""
 
 from dataclasses import dataclass, replace
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,7 +117,7 @@ class Style:
         if chisel.spacing < FINEST * pitch:
             raise InputError(
                 "the marks are closer together than the relief's pixels can show",
-                expected=f"{FINEST * pitch:.2g} mm or more",
+                expected=f"{_rounded_up(FINEST * pitch)} mm or more",
                 found=f"{chisel.spacing:g} mm",
                 hint="a finer --resolution or a larger --mark-spacing",
             )
@@ -124,7 +125,7 @@ class Style:
         if width < FINEST * pitch:
             raise InputError(
                 "the marks are finer than the relief's pixels can show",
-                expected=f"{FINEST * pitch:.2g} mm or more across",
+                expected=f"{_rounded_up(FINEST * pitch)} mm or more across",
                 found=f"{width:.2g} mm, cut {chisel.depth:g} mm deep by {tool.name}",
                 hint="a finer --resolution, a larger --mark-depth or a wider --mark-cutter",
             )
@@ -152,3 +153,8 @@ class Marks:
     cutter: Cutter
     smooth: Relief
     lines: tuple[Floats, ...]
+
+
+def _rounded_up(length: float) -> str:
+    """Write a least length so that what is written is enough."""
+    return f"{ceil(100 * length - 1e-6) / 100:g}"

@@ -97,3 +97,17 @@ def test_a_face_laid_out_is_as_the_cutter_meets_it():
     lying = inset.lying
     assert (lying.width, lying.height) == (inset.height, inset.width)
     assert lying.x + lying.width / 2 == pytest.approx(inset.x + inset.width / 2)
+
+
+@pytest.mark.parametrize("zero", [(0, 0), (45, 60), (45, 0), (0, 60), (22.5, 30)])
+@pytest.mark.parametrize(("radius", "letter"), [(0.0, "Y"), (20.0, "Y"), (20.0, "A")])
+def test_the_axes_of_work_zero_lie_on_the_page_wherever_it_is(zero, radius, letter):
+    drawing = plan.draw(plan.Plan(Stock(45, 60, 12, (*zero, 0.0), radius=radius), letter=letter))
+    for line in drawing.lines:
+        if line.kind == "zero":
+            at = [[float(n) for n in c.split()] for c in line.path.removeprefix("M").split(" L")]
+            assert np.min(at) > 0
+            assert (np.array(at) < (drawing.width, drawing.height)).all()
+    for word in drawing.words:
+        assert 0 < word.x < drawing.width
+        assert 8 < word.y < drawing.height

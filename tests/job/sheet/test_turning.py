@@ -66,6 +66,22 @@ def test_work_turns_against_the_way_of_the_cutter():
     assert ends["A"] > 0 > ends["Y"]
 
 
+@pytest.mark.parametrize("long", [5.0, 45.0, 400.0])
+def test_top_and_foot_are_told_apart_on_any_length(long):
+    bent = Round(60, long, 40)
+    drawing = turning.along(Stock(long, 60, 20, radius=20), bent, 3.0, (0, long), 5.0)
+    ends = {word.text: word for word in drawing.words if word.text.startswith("figure")}
+    assert ends["figure's top"].anchor == "end"
+    assert ends["figure's foot"].anchor == "start"
+    assert ends["figure's foot"].x - ends["figure's top"].x >= 7.9
+
+
+def test_where_no_machine_is_known_nothing_turns():
+    drawing = turning.across(Stock(45, 60, 20, radius=20), Round(60, 45, 40), 3.0, "")
+    assert points(drawing, "turn") == []
+    assert texts(drawing) == {"Z", "40 mm", "operator's side"}
+
+
 def test_work_zero_on_the_axis_is_drawn_there():
     stock = Stock(45, 60, 20, (0, 0, -20), radius=20)
     drawing = turning.across(stock, Round(60, 45, 40), 3.0, "A")

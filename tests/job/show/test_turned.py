@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
+from relieffab import profiles
 from relieffab.errors import InputError
+from relieffab.gcode.aids import outline_program
+from relieffab.gcode.setup import Setup
 from relieffab.job.show.carved import show_program
 from relieffab.job.show.lit import Lit
 from relieffab.job.show.maker import run_of
+from relieffab.machine import turning
+from relieffab.stock import Stock
 
 HEAD = """(machine: {machine})
 (cutter: flat-3.175, flat 3.175 mm)
@@ -60,3 +65,12 @@ def test_a_program_that_turns_and_does_not_tell_what_is_refused(tmp_path):
     path.write_text(BY_A)
     with pytest.raises(InputError, match="does not tell the stock that it turns"):
         run_of(path, cutter="flat-3.175", machine="altmill-4x4-rotary")
+
+
+def test_an_outline_in_the_air_cuts_nothing(tmp_path):
+    stock = Stock(45, 60, 20, radius=20)
+    machine = turning(profiles.machine("altmill-4x4-rotary"), 20)
+    path = tmp_path / "00-outline.nc"
+    path.write_text(outline_program(Setup(machine, profiles.material("softwood"), stock, 3.0)))
+    with pytest.raises(InputError, match="cuts nothing"):
+        run_of(path)

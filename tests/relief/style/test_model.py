@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,16 @@ def test_width_of_marks():
 def test_what_is_no_style(wrong, says):
     with pytest.raises(InputError, match=says):
         Style(**{"marks": "gouge", **wrong})
+
+
+def test_the_least_spacing_named_is_enough():
+    pitch = 40 / 96
+    with pytest.raises(InputError, match="closer together") as refused:
+        Style("gouge", spacing=1.0).check(3.0, pitch)
+    least = float(re.search(r"expected: ([\d.]+) mm", str(refused.value))[1])
+    assert FINEST * pitch <= least < FINEST * pitch + 0.01
+    with pytest.raises(InputError, match="finer than"):
+        Style("gouge", spacing=least).check(3.0, pitch)
 
 
 def test_marks_too_deep_or_too_fine_are_refused():
