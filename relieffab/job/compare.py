@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.errors import InputError
-from relieffab.job import chain
+from relieffab.job import milling, reliefs
 from relieffab.job.folder import check_folder, finished_together
 from relieffab.job.report import Report, start_report
 from relieffab.job.seen import look_at, read_model
@@ -70,7 +70,7 @@ def _share(progress: Progress, before: int, count: int) -> Progress:
 
 def _every(layers: Layers, job: Job, depths: Sequence[float], progress: Progress) -> Iterator[Made]:
     """Make and measure the reliefs, a depth after the other."""
-    carving, cutter = chain.carving_of(job), chain.cutters_of(job)[2]
+    carving, cutter = reliefs.carving_of(job), milling.cutters_of(job)[2]
     height = figure_size(layers)[0]
     ways = [(percent, name) for percent in depths for name in NAMES]
     for done, (percent, name) in enumerate(ways):
@@ -156,7 +156,7 @@ def compare(
         What compare.json holds; `reliefs` has a row for every method and depth.
     """
     job = job_of(settings)
-    chain.carving_of(job)
+    reliefs.carving_of(job)
     if folder is not None:
         check_folder(folder, overwrite=overwrite)
     model = read_model(job)
@@ -180,7 +180,7 @@ def compare(
             k: v for k, v in begun["settings"].items() if k not in ("depth", "method", "wall_angle")
         },
         "figure_height_mm": figure_size(layers)[0],
-        "cutter": chain.cutters_of(job)[2].name,
+        "cutter": milling.cutters_of(job)[2].name,
         "reliefs": [row for _, row in made],
     }
     if folder is not None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from relieffab.errors import InputError
-from relieffab.job import chain
+from relieffab.job import looking, pictures, reliefs
 from relieffab.job.drawn import read_strokes
 from relieffab.job.folder import ALL, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
@@ -112,7 +112,7 @@ def make(
 def _write(
     relief: Relief, strokes: Sequence[Stroke], job: Job, report: Report, folder: Path
 ) -> None:
-    chain.write_drawing(strokes, job, folder)
-    report["relief"] = chain.relief_part(relief)
-    report["relief"]["sha256"] = chain.write_relief(relief, folder)
-    _, report["picture"] = chain.write_picture(relief, None, job, folder)
+    looking.write_drawing(strokes, job, folder)
+    report["relief"] = reliefs.relief_part(relief)
+    report["relief"]["sha256"] = reliefs.write_relief(relief, folder)
+    _, report["picture"] = pictures.write_picture(relief, None, job, folder)

@@ -17,7 +17,7 @@ from relieffab.template.svg import to_svg
 
 
 def read_strokes(folder: Path) -> tuple[Stroke, ...]:
-    """Read the drawing that `chain.write_layers` left.
+    """Read the drawing that `looking.write_layers` left.
 
     Raises
     ------

@@ -16,7 +16,7 @@ from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.write import foretold, write_program
 from relieffab.job.certificate import file_hash
-from relieffab.job.chain import Planned, setup_of
+from relieffab.job.milling import Planned, setup_of
 from relieffab.job.settings import Job
 from relieffab.machine import cutting, known_use
 from relieffab.progress import Progress, silent

@@ -7,7 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import FindingsError, InputError
-from relieffab.job import certificate, chain, drawn, programs, proof, solids, styles
+from relieffab.job import (
+    certificate,
+    drawn,
+    looking,
+    milling,
+    pictures,
+    programs,
+    proof,
+    reliefs,
+    solids,
+    styles,
+)
 from relieffab.job.folder import (
     ALL,
     PROGRAMS,
@@ -52,7 +63,7 @@ def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Seen:
     with _timed(report, "layers", progress):
         seen = look_at(model, job)
         report["model"], report["view"] = seen.model, seen.view
-        chain.write_layers(seen.layers, job, folder)
+        looking.write_layers(seen.layers, job, folder)
     return seen
 
 
@@ -61,9 +72,9 @@ def _solve(
 ) -> tuple[Layers, Relief, Marks | None]:
     seen = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
-        relief, report["relief"] = chain.solve_relief(seen.layers, job, seen.carve, progress)
+        relief, report["relief"] = reliefs.solve_relief(seen.layers, job, seen.carve, progress)
     relief, marks = _mark(relief, seen.layers, job, report, folder, progress)
-    report["relief"]["sha256"] = chain.write_relief(relief, folder)
+    report["relief"]["sha256"] = reliefs.write_relief(relief, folder)
     report["relief"]["seconds"] = report["timings"]["relief"]
     return seen.layers, relief, marks
 
@@ -77,7 +88,7 @@ def _mark(
     with _timed(report, "style", progress):
         relief, marks, report["style"] = styles.mark(smooth, layers, job)
         styles.write_marks(marks, job, folder)
-    report["relief"].update(chain.relief_part(relief))
+    report["relief"].update(reliefs.relief_part(relief))
     return relief, marks
 
 
@@ -98,19 +109,19 @@ def _carve(
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
-            picture = chain.write_picture(relief, panel, job, folder, round_of(job))
+            picture = pictures.write_picture(relief, panel, job, folder, round_of(job))
             small, report["picture"] = picture
         if panel is None:
             file = folder / f"{job.solid}.png"
-            small, facts["picture"] = chain.write_solid_picture(solid, relief, job, file)
+            small, facts["picture"] = pictures.write_solid_picture(solid, relief, job, file)
     with _timed(report, "export", progress):
         name = report["model"]["name"]
-        part = chain.write_solid(solid, job, folder, name=name, picture=small)
+        part = solids.write_solid(solid, job, folder, name=name, picture=small)
         report[job.solid] = {**part, **facts}
 
 
 def _prove(
-    planned: Sequence[chain.Planned],
+    planned: Sequence[milling.Planned],
     relief: Relief,
     job: Job,
     report: Report,
@@ -126,7 +137,7 @@ def _prove(
     """
     with _timed(report, "programs", progress):
         report.update(programs.write(planned, relief, job, report, folder))
-    stock = chain.setup_of(job, relief.depth).stock
+    stock = milling.setup_of(job, relief.depth).stock
     with _timed(report, "verify", progress):
         verdict = proof.judge(relief, report, folder, progress)
         report["verification"] = {
@@ -170,7 +181,7 @@ def make(
         If the programs would not carve the relief.
     """
     job = job_of(settings)
-    chain.check(job)
+    milling.check(job)
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with (
@@ -181,7 +192,7 @@ def make(
         layers, relief, marks = _solve(job, report, scratch, progress)
         _carve(relief, stock, job, report, scratch, progress)
         with _timed(report, "toolpaths", progress):
-            planned = chain.plan_paths(relief, layers.strokes, job, progress, marks=marks)
+            planned = milling.plan_paths(relief, layers.strokes, job, progress, marks=marks)
         _prove(planned, relief, job, report, scratch, progress)
     return report
 
@@ -203,14 +214,14 @@ def make_relief(
     """Solve for the relief of a model into a folder."""
     styles.check(job_of(settings))
     round_of(job_of(settings))
-    chain.carving_of(job_of(settings))
+    reliefs.carving_of(job_of(settings))
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
         job = job_of(settings)
         _, relief, _ = _solve(job, report, scratch, progress)
         with _timed(report, "picture", progress):
-            _, report["picture"] = chain.write_picture(relief, None, job, scratch)
+            _, report["picture"] = pictures.write_picture(relief, None, job, scratch)
     return report
 
 
@@ -235,13 +246,13 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
 def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
     """Plan, write and judge the programs of a relief that lies in a folder, beside it."""
     job, report = job_of(settings), read_report(folder)
-    chain.check(job)
+    milling.check(job)
     relief = read_relief(folder / "relief.tiff")
     strokes, marks = drawn.read_strokes(folder), styles.read_marks(folder, job)
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
-            planned = chain.plan_paths(relief, strokes, job, progress, marks=marks)
+            planned = milling.plan_paths(relief, strokes, job, progress, marks=marks)
         _prove(planned, relief, job, report, scratch, progress)
     return report
 

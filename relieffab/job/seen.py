@@ -7,7 +7,7 @@ from typing import Any
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.job import chain
+from relieffab.job import looking
 from relieffab.job.settings import Job
 from relieffab.layers.art.art import Art
 from relieffab.layers.art.make import layers_of_art, placed_on
@@ -101,9 +101,9 @@ def look_at(model: Model, job: Job) -> Seen:
     """
     sha = hashlib.sha256(Path(job.model).read_bytes()).hexdigest() if job.model else None
     if isinstance(model, Mesh):
-        view, note = chain.view_of(job, model)
-        layers, seen = chain.make_layers(model, view, job)
-        part = chain.model_part(model, sha)
+        view, note = looking.view_of(job, model)
+        layers, seen = looking.make_layers(model, view, job)
+        part = looking.model_part(model, sha)
         part["notes"] += [note] if note else []
         return Seen(layers, part, seen, job.carve)
     part = {"name": model.name, "notes": list(model.notes), "sha256": sha}
@@ -115,9 +115,9 @@ def _picture(picture: Picture, job: Job, part: Part) -> Seen:
         picture,
         Grid.on_panel(job.size, job.resolution),
         job.size,
-        margin=chain.margin_of(job),
+        margin=looking.margin_of(job),
         showing=Showing(job.image, job.mask, job.image_depth),
-        drawing=chain.drawing_of(job),
+        drawing=looking.drawing_of(job),
     )
     facts = {**seen.facts, "width": picture.shape[1], "height": picture.shape[0]}
     facts |= {"bits": picture.bits, "format": picture.format}
@@ -128,10 +128,10 @@ def _picture(picture: Picture, job: Job, part: Part) -> Seen:
 
 
 def _art(art: Art, job: Job, part: Part) -> Seen:
-    matrix = placed_on(art, job.size, margin=chain.margin_of(job))
+    matrix = placed_on(art, job.size, margin=looking.margin_of(job))
     outlined = job.carve == LINES
     grid = Grid.on_panel(job.size, job.resolution)
-    drawing = chain.drawing_of(job)
+    drawing = looking.drawing_of(job)
     layers = layers_of_art(art, grid, matrix, outlined=outlined, drawing=drawing)
     filled = any(mark.fill and not mark.paper for mark in art.marks)
     carve = job.carve if filled else _lines_only(job, art.name)
@@ -157,5 +157,5 @@ def _lines_only(job: Job, name: str) -> str:
 
 def _checked(seen: Seen, job: Job) -> Seen:
     """Refuse a figure that comes too near the panel's edge, its frame or its holes."""
-    chain.check_figure(seen.layers.mask | (seen.layers.lines > 0), seen.layers.grid, job)
+    looking.check_figure(seen.layers.mask | (seen.layers.lines > 0), seen.layers.grid, job)
     return seen

@@ -156,3 +156,33 @@ def write_parts(solid: Panel, job: Job, folder: Path, name: str) -> Facts:
             }
         )
     return {"tiles": listed}
+
+
+def write_solid(
+    solid: Panel, job: Job, folder: Path, *, name: str, picture: bytes | None = None
+) -> Facts:
+    """Write a solid in the job's formats, and in parts; what report.json holds of it.
+
+    Parameters
+    ----------
+    solid : Panel
+    job : Job
+    folder : Path
+    name : str
+        Of the model, for formats that name their object.
+    picture : bytes, optional
+        A PNG file, for formats that carry one.
+    """
+    files = [f"{job.solid}.{kind}" for kind in job.formats]
+    title = {"panel": "relief of", "plaque": "plaque of", "mould": "mould of"}[job.solid]
+    for file in files:
+        write_panel(solid, folder / file, name=f"{title} {name}", picture=picture)
+    return {
+        "file": files[0],
+        "files": files,
+        "triangles": len(solid.faces),
+        "watertight": solid.watertight,
+        "volume_mm3": solid.volume_mm3,
+        "max_error_mm": solid.max_error_mm,
+        **write_parts(solid, job, folder, f"{title} {name}"),
+    }

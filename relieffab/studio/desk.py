@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError
-from relieffab.job import chain
+from relieffab.job import looking, milling, reliefs
 from relieffab.job.settings import Chosen
 from relieffab.progress import Progress
 from relieffab.studio import controls, looks, upload, warm
@@ -95,7 +95,7 @@ class Desk:
 
         file = self.session.new_place() / "scarab.obj"
         trimesh.Trimesh(*scarab(), process=False).export(file)
-        self.open(file, up=chain.SCARAB_UP)
+        self.open(file, up=looking.SCARAB_UP)
 
     def state(self) -> dict[str, Any]:
         """Say what is open, and what may be chosen."""
@@ -130,7 +130,7 @@ class Desk:
             view = preview.view(ask.model, ask.job, progress)
             solved = preview.relief(view, ask.job, progress) if "relief" in wanted else None
             more = {"seconds": preview.seconds, "notes": list(ask.model.shown.notes)}
-            carving = chain.carving_of(ask.job)
+            carving = reliefs.carving_of(ask.job)
             return looks.preview_frame(view, solved, carving, {**facts, **more})
 
         # With other settings, whatever else is in work is void.
@@ -201,7 +201,7 @@ class Desk:
     def export(self, settings: Mapping[str, Any]) -> State:
         """Begin the job."""
         ask = self.session.settle(settings)
-        chain.check(ask.job)
+        milling.check(ask.job)
         return self.exporter.start(self.session.job_file(MODEL), ask.model.file)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from relieffab.grid import Grid
-from relieffab.job import chain
+from relieffab.job import looking, reliefs
 from relieffab.job.settings import Job
 from relieffab.job.stocks import stock_of
 from relieffab.layers.lines.drawing import Drawing
@@ -137,7 +137,7 @@ class Preview:
         place = model, _some(job, PLACED)
         sight, part = self.kept.once("sight", place, lambda: self._look(model, tiny))
         progress("layers", 1, 3)
-        drawing = chain.drawing_of(tiny)
+        drawing = looking.drawing_of(tiny)
         drawn = sight, _some(job, DRAWN)
         strokes = self.kept.once("strokes", drawn, lambda: self._draw(model, sight, drawing))
         progress("layers", 2, 3)
@@ -145,20 +145,20 @@ class Preview:
         view = self.kept.once(
             "view", inked, lambda: View(sight, sight.layers(strokes, drawing), part)
         )
-        chain.check_figure(view.layers.mask, sight.grid, tiny)
+        looking.check_figure(view.layers.mask, sight.grid, tiny)
         progress("layers", 3, 3)
         self.seconds["layers"] = time.perf_counter() - start
         return view
 
     def _look(self, model: Model, job: Job) -> tuple[Sight, dict[str, Any]]:
         mesh = model.shown if self.whole else model.tried
-        view, _ = chain.view_of(job, mesh)
-        placed = chain.place_model(mesh, view, job)
+        view, _ = looking.view_of(job, mesh)
+        placed = looking.place_model(mesh, view, job)
         groups = self.kept.once(
             "groups", model, lambda: smoothing_groups(mesh.vertices, mesh.faces)
         )
         grid = Grid.on_panel(job.size, job.resolution)
-        return Sight.of(placed, grid, groups=groups), chain.view_part(view, placed)
+        return Sight.of(placed, grid, groups=groups), looking.view_part(view, placed)
 
     def _draw(self, model: Model, sight: Sight, drawing: Drawing) -> tuple[Stroke, ...]:
         lengths = visible_lengths(drawing, sight.grid.pitch)
@@ -185,7 +185,7 @@ class Preview:
         return make_panel(solved.relief, stock, blank=blank, tolerance=TOLERANCE, progress=progress)
 
     def _solve(self, view: View, job: Job, progress: Progress) -> Solved:
-        carving = chain.carving_of(job)
+        carving = reliefs.carving_of(job)
         last: Solved | None = self.kept.last("relief")
         start = None
         if last and last.solution and last.view.sight is view.sight:

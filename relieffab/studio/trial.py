@@ -13,7 +13,7 @@ from relieffab.gcode.pacing import Paced
 from relieffab.gcode.setup import Setup
 from relieffab.gcode.slab import Slab
 from relieffab.gcode.verify import Verification, verify
-from relieffab.job import chain, programs
+from relieffab.job import milling, programs
 from relieffab.job.settings import Job
 from relieffab.progress import Progress
 from relieffab.stock import Stock
@@ -87,10 +87,10 @@ class Trial:
 
     def carry_out(self, solved: Solved, job: Job, progress: Progress) -> Tried:
         """Plan the programs of a relief, judge them and carve a virtual stock."""
-        chain.check(job)
+        milling.check(job)
         relief, strokes = solved.relief, solved.view.layers.strokes
-        planned = chain.plan_paths(relief, strokes, job, progress)
-        whole = chain.setup_of(job, relief.depth)
+        planned = milling.plan_paths(relief, strokes, job, progress)
+        whole = milling.setup_of(job, relief.depth)
         slab = Slab.whole(relief.grid, whole.stock)
         fitted = [
             (whole.at(position), one)

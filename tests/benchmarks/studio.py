@@ -17,7 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 
-from relieffab.job import chain
+from relieffab.job import reliefs
 from relieffab.job.settings import Job, default_job
 from relieffab.layers.mesh import make_mesh, read_mesh
 from relieffab.progress import silent
@@ -46,7 +46,7 @@ def frame(preview: Preview, model: Model, job: Job) -> bytes:
     view = preview.view(model, job, silent)
     solved = preview.relief(view, job, silent)
     facts = {"ask": 1, "seconds": preview.seconds, "notes": []}
-    return looks.preview_frame(view, solved, chain.carving_of(job), facts)
+    return looks.preview_frame(view, solved, reliefs.carving_of(job), facts)
 
 
 def timed(preview: Preview, model: Model, job: Job) -> tuple[float, float]:

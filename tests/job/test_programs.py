@@ -7,7 +7,7 @@ import pytest
 
 from relieffab.errors import FindingsError, InputError
 from relieffab.grid import Grid
-from relieffab.job import chain, programs, proof
+from relieffab.job import milling, programs, proof, reliefs
 from relieffab.job.certificate import certificate, check_certificate
 from relieffab.job.folder import PROGRAMS
 from relieffab.job.settings import default_job
@@ -38,9 +38,9 @@ def written(request, tmp_path_factory):
         size="270x20mm", resolution="1080x80", depth="1.5mm", positions=request.param, plate="1mm"
     )
     facts = {"model": {"name": "wave"}, "settings": {"positions": request.param}, "schema": 1}
-    facts["relief"] = {"sha256": chain.write_relief(wave(job), folder)}
+    facts["relief"] = {"sha256": reliefs.write_relief(wave(job), folder)}
     relief = read_relief(folder / "relief.tiff")
-    planned = chain.plan_paths(relief, (), job)
+    planned = milling.plan_paths(relief, (), job)
     facts |= programs.write(planned, relief, job, facts, folder)
     verdict = proof.judge(relief, facts, folder)
     facts["verification"] = {
@@ -110,10 +110,10 @@ def test_the_page_says_what_to_do(written):
 
 def test_what_is_refused_before_any_work():
     with pytest.raises(InputError, match="--positions index or turn"):
-        chain.check(default_job(size="300x90mm"))
-    chain.check(default_job(size="300x90mm", positions="turn"))
+        milling.check(default_job(size="300x90mm"))
+    milling.check(default_job(size="300x90mm", positions="turn"))
     with pytest.raises(InputError, match="too large both ways"):
-        chain.check(default_job(size="300x190mm", positions="index"))
+        milling.check(default_job(size="300x190mm", positions="index"))
     with pytest.raises(InputError, match="wider than the positions' overlap"):
-        chain.check(default_job(size="300x90mm", positions="index", overlap="2mm"))
-    assert chain.positions_of(default_job(positions="index")) == (None,)
+        milling.check(default_job(size="300x90mm", positions="index", overlap="2mm"))
+    assert milling.positions_of(default_job(positions="index")) == (None,)

@@ -3,7 +3,7 @@ import pytest
 from relieffab import profiles
 from relieffab.errors import InputError
 from relieffab.fittings import Edge, Frame, Hole, Keyhole
-from relieffab.job import chain, solids
+from relieffab.job import milling, solids
 from relieffab.job.settings import default_job
 from relieffab.job.stocks import machine_of, milled_of, round_of, stock_of
 from relieffab.round import Curved, Round
@@ -113,4 +113,4 @@ def test_solids_that_a_round_stock_has_not(given, word):
 )
 def test_programs_that_cannot_be_are_refused_before_any_work(given, word):
     with pytest.raises(InputError, match=word):
-        chain.check(default_job(round="80mm", **given))
+        milling.check(default_job(round="80mm", **given))

@@ -7,7 +7,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.job import chain, run, styles
+from relieffab.job import milling, reliefs, run, styles
 from relieffab.job.drawn import read_strokes
 from relieffab.job.load import gather
 from relieffab.job.settings import default_job
@@ -80,7 +80,7 @@ def test_without_the_marks_program_the_marks_are_missing(made):
     folder, _ = made
     job = default_job(**SETTINGS)
     relief, marks = read_relief(folder / "relief.tiff"), styles.read_marks(folder, job)
-    ((_, paths),) = chain.plan_paths(relief, (), job, marks=marks)
+    ((_, paths),) = milling.plan_paths(relief, (), job, marks=marks)
     tips = paths[-1].points[np.isfinite(paths[-1].feed)]
     assert paths[-1].name == "marks"
     # Its tip goes below the smooth relief by the marks' depth, and no deeper than the relief.
@@ -113,7 +113,7 @@ def test_pecks_leave_room_for_every_cutter_beside_a_raised_frame():
     x, y = relief.grid.to_xy(*np.nonzero(relief.heights < -1e-6))
     # The widest of the cutters has a radius of 1.5875 mm, and the border is 2.5 mm wide.
     assert min(x.min(), y.min()) >= 2 + 2.5 - 2 * relief.grid.pitch
-    check(relief, machine_of(job), chain.all_cutters_of(job), stock_of(job), 0.1)
+    check(relief, machine_of(job), milling.all_cutters_of(job), stock_of(job), 0.1)
     assert part["ground"] == "pecked" and len(marks.lines) > 20
 
 
@@ -136,10 +136,10 @@ def test_marks_come_back_from_their_files(made, tmp_path):
 def test_a_job_without_a_style_is_as_it_was():
     plain, styled = default_job(), default_job(style="gouge")
     assert styles.style_of(plain).plain
-    assert chain.carving_of(plain).depth == 3.0
-    assert chain.carving_of(styled).depth == 3.0 - styles.style_of(styled).headroom
-    assert chain.all_cutters_of(plain) == chain.cutters_of(plain)
-    assert [c.name for c in chain.all_cutters_of(styled)][3:] == ["ball-2"]
+    assert reliefs.carving_of(plain).depth == 3.0
+    assert reliefs.carving_of(styled).depth == 3.0 - styles.style_of(styled).headroom
+    assert milling.all_cutters_of(plain) == milling.cutters_of(plain)
+    assert [c.name for c in milling.all_cutters_of(styled)][3:] == ["ball-2"]
 
 
 @pytest.mark.parametrize(
@@ -155,7 +155,7 @@ def test_a_job_without_a_style_is_as_it_was():
 )
 def test_what_cannot_be_marked_is_refused_before_any_work(wrong, says):
     with pytest.raises(InputError, match=says):
-        chain.check(default_job(**{**SETTINGS, **wrong}))
+        milling.check(default_job(**{**SETTINGS, **wrong}))
 
 
 @pytest.mark.parametrize(
