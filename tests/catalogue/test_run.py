@@ -2,6 +2,7 @@ import json
 from concurrent.futures import Future
 from contextlib import contextmanager
 
+import numpy as np
 import pytest
 
 from relieffab.catalogue import run
@@ -10,6 +11,7 @@ from relieffab.catalogue.listing import wanted
 from relieffab.catalogue.lock import locked
 from relieffab.catalogue.work import carry_out
 from relieffab.errors import InputError
+from relieffab.picture import png16
 
 
 class Here:
@@ -109,3 +111,25 @@ def test_two_batches_at_once_are_refused(stones):
     batch((jobs[:1], out), "layers")
     with locked(out), pytest.raises(InputError, match="another batch"):
         batch((jobs[:1], out), "layers")
+
+
+def test_a_list_of_round_marked_and_pictured_jobs(tmp_path):
+    down, across = np.mgrid[-1:1:72j, -1:1:96j]
+    dome = np.sqrt(np.clip(1 - (across**2 + down**2) / 0.6, 0, 1))
+    (tmp_path / "dome.png").write_bytes(png16(dome))
+    (tmp_path / "list.csv").write_text(
+        "model,name,round,style,resolution\n"
+        "dome.png,flat,,,96x72\ndome.png,column,20mm,,96x72\n"
+        "dome.png,marked,,gouge,200x150\ndome.png,narrow,5mm,,96x72\n"
+    )
+    flags = {"size": "40x30mm", "margin": "3mm", "depth": "2mm"}
+    listed = wanted([str(tmp_path / "list.csv")], tmp_path / "out")
+    jobs = entries(listed, flags, {}, "relief")
+    found, _ = batch((jobs, tmp_path / "out"))
+    rows = {row["name"]: row for row in found["jobs"]}
+    assert (found["done"], found["failed"]) == (3, 1)
+    assert "wider than the way round" in rows["narrow"]["message"]
+    page = (tmp_path / "out" / "column" / "report.html").read_text(encoding="utf-8")
+    assert "round, 20 mm thick, 30 mm long" in page
+    page = (tmp_path / "out" / "marked" / "report.html").read_text(encoding="utf-8")
+    assert "<h2>Marks</h2>" in page

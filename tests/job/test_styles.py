@@ -63,8 +63,11 @@ def test_the_page_tells_them_too(made):
     folder, report = made
     shown = (folder / "report.html").read_text()
     found = report["style"]["measured"]["figure"]
-    assert "<h2>Marks</h2>" in shown and f"<td>{found['depth_mm']:.3g}</td>" in shown
-    assert "on the ground" in shown and f"{report['style']['strokes']:,} strokes by ball-2" in shown
+    assert "<h2>Marks</h2>" in shown and f'<td class="n">{found["depth_mm"]:.2f}</td>' in shown
+    assert (
+        "On the ground" in shown
+        and f"{report['style']['strokes']:,} strokes by <code>ball-2</code>" in shown
+    )
 
 
 def test_the_marks_have_a_program_of_their_own_and_all_of_it_is_proved(made):
