@@ -36,8 +36,8 @@ def test_moments_of_the_programs_follow_each_other(tried):
 def test_the_stock_at_a_moment_is_what_the_moves_until_then_leave(tried, share):
     states = tried.last.states
     at = share * states.seconds
-    slab, _ = tried.carved(at)
-    slow = Slab.over(slab.grid)
+    slab, stock = tried.carved(at)
+    slow = Slab.over(slab.grid, stock)
     for run in tried.last.runs:
         done = run.points[: np.searchsorted(run.ends, at, side="right")]
         if 0 < len(done) < len(run.points):
