@@ -2,12 +2,20 @@ import asyncio
 import json
 import threading
 
+from anyio.from_thread import start_blocking_portal
+
 from relieffab.studio import events as module
 from relieffab.studio.events import Events
 
 
 async def _take(stream, count):
     return [await asyncio.wait_for(anext(stream), 5) for _ in range(count)]
+
+
+def carry_out(main):
+    """Run in a loop of its own thread: a browser's driver may hold the one of this."""
+    with start_blocking_portal() as portal:
+        return portal.call(main)
 
 
 def facts(lines):
@@ -25,7 +33,7 @@ def test_the_present_comes_first_and_news_from_any_thread_after():
         thread.join()
         return first, found
 
-    first, found = asyncio.run(main())
+    first, found = carry_out(main)
     assert facts(first) == [{"now": 0}, {"now": 0}]
     assert [facts(lines) for lines in found] == [[{"n": 0}, {"n": 1}, {"n": 2}]] * 2
     assert all(line.endswith("\n\n") for lines in found for line in lines)
@@ -41,7 +49,7 @@ def test_silence_is_broken_by_a_word_that_means_nothing(monkeypatch):
     async def main():
         return await _take(Events().listen({}), 2)
 
-    assert asyncio.run(main())[1] == ":\n\n"
+    assert carry_out(main)[1] == ":\n\n"
 
 
 def test_closing_ends_the_stream_and_forgets_it():
@@ -53,6 +61,6 @@ def test_closing_ends_the_stream_and_forgets_it():
         rest = [line async for line in stream]
         return rest, events
 
-    rest, events = asyncio.run(main())
+    rest, events = carry_out(main)
     assert rest == []
     assert not events._queues

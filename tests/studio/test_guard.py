@@ -1,6 +1,5 @@
-import asyncio
-
 import pytest
+from anyio.from_thread import start_blocking_portal
 
 from relieffab.studio.guard import HEADERS, Guard, new_token
 
@@ -25,7 +24,8 @@ def answer(path, headers=(), kind="http"):
 
     raw = [(name.encode(), value.encode()) for name, value in headers]
     scope = {"type": kind, "path": path, "headers": raw, "method": "GET", "query_string": b""}
-    asyncio.run(Guard(app, token=TOKEN, port=PORT)(scope, receive, send))
+    with start_blocking_portal() as portal:  # a browser's driver may hold this thread's loop
+        portal.call(Guard(app, token=TOKEN, port=PORT), scope, receive, send)
     told = {name.decode().lower(): value.decode() for name, value in sent[0]["headers"]}
     return sent[0]["status"], told, seen
 
