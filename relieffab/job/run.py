@@ -212,13 +212,13 @@ def make_relief(
     settings: Settings, folder: Path, *, overwrite: bool = False, progress: Progress = silent
 ) -> Report:
     """Solve for the relief of a model into a folder."""
-    styles.check(job_of(settings))
-    round_of(job_of(settings))
-    reliefs.carving_of(job_of(settings))
+    job = job_of(settings)
+    styles.check(job)
+    round_of(job)
+    reliefs.carving_of(job)
     check_folder(folder, overwrite=overwrite)
     report = start_report(settings)
     with finished_together(folder, ALL) as scratch, _reported(report, scratch):
-        job = job_of(settings)
         _, relief, _ = _solve(job, report, scratch, progress)
         with _timed(report, "picture", progress):
             _, report["picture"] = pictures.write_picture(relief, None, job, scratch)

@@ -140,22 +140,33 @@ def write_parts(solid: Panel, job: Job, folder: Path, name: str) -> Facts:
         return {"tiles": []}
     listed = []
     for tile in tiles:
-        files = [f"{job.solid}-{tile.name}.{kind}" for kind in job.formats]
-        for file in files:
-            write_panel(tile, folder / file, name=f"{name}, part {tile.name}")
+        stem = f"{job.solid}-{tile.name}"
+        written = _write(tile, stem, job, folder, f"{name}, part {tile.name}")
         size = tile.vertices.max(axis=0) - tile.vertices.min(axis=0)
         listed.append(
             {
-                "file": files[0],
-                "files": files,
+                **written,
                 "place_mm": list(tile.place),
                 "size_mm": size.tolist(),
-                "triangles": len(tile.faces),
-                "watertight": tile.watertight,
-                "volume_mm3": tile.volume_mm3,
             }
         )
     return {"tiles": listed}
+
+
+def _write(
+    solid: Panel, stem: str, job: Job, folder: Path, name: str, picture: bytes | None = None
+) -> Facts:
+    """Write a solid, or a part of one, in the job's formats."""
+    files = [f"{stem}.{kind}" for kind in job.formats]
+    for file in files:
+        write_panel(solid, folder / file, name=name, picture=picture)
+    return {
+        "file": files[0],
+        "files": files,
+        "triangles": len(solid.faces),
+        "watertight": solid.watertight,
+        "volume_mm3": solid.volume_mm3,
+    }
 
 
 def write_solid(
@@ -173,16 +184,9 @@ def write_solid(
     picture : bytes, optional
         A PNG file, for formats that carry one.
     """
-    files = [f"{job.solid}.{kind}" for kind in job.formats]
     title = {"panel": "relief of", "plaque": "plaque of", "mould": "mould of"}[job.solid]
-    for file in files:
-        write_panel(solid, folder / file, name=f"{title} {name}", picture=picture)
     return {
-        "file": files[0],
-        "files": files,
-        "triangles": len(solid.faces),
-        "watertight": solid.watertight,
-        "volume_mm3": solid.volume_mm3,
+        **_write(solid, job.solid, job, folder, f"{title} {name}", picture),
         "max_error_mm": solid.max_error_mm,
         **write_parts(solid, job, folder, f"{title} {name}"),
     }

@@ -104,10 +104,36 @@ def _highest(field, reach, offsets, drop, out):  # type: ignore[no-untyped-def]
                         target[j] = max(target[j], source[j] - low)
 
 
-def _sunken(heights: Floats) -> tuple[slice, slice]:
+def sunken_box(heights: Floats) -> tuple[slice, slice]:
     """Rows and columns that hold all below 0, of which there is some."""
     rows, cols = (np.nonzero((heights < 0).any(axis=axis))[0] for axis in (1, 0))
     return slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)
+
+
+def _lowered(
+    heights: Floats, pitch: float, profile: Profile
+) -> tuple[tuple[slice, slice], Ints, Floats, Floats] | None:
+    """Lower a cutter onto all that lies below 0; None if nothing does, or it is too narrow.
+
+    Returns
+    -------
+    box : tuple of slice
+        What lies below 0.
+    offsets, drop : ndarray
+        From `tip`.
+    lowest : ndarray
+        Heights of the tip in the box, mm.
+    """
+    if not (heights < 0).any():
+        return None
+    box = sunken_box(heights)
+    lowest = np.array(heights[box], dtype=np.float64, order="C")
+    offsets, drop = tip(profile, pitch, -float(lowest.min()), max(lowest.shape))
+    if not len(drop):
+        return None
+    reach = int(offsets.max())
+    _highest(np.pad(lowest, reach), reach, offsets, drop, lowest)
+    return box, offsets, drop, lowest
 
 
 def lowest_tips(heights: Floats, pitch: float, profile: Profile) -> Floats:
@@ -120,16 +146,10 @@ def lowest_tips(heights: Floats, pitch: float, profile: Profile) -> Floats:
     (rows, cols) ndarray
         Heights of the tip at the nodes, mm; nowhere below the heights.
     """
-    if not (heights < 0).any():
+    found = _lowered(heights, pitch, profile)
+    if found is None:
         return heights
-    box = _sunken(heights)
-    sunken = np.ascontiguousarray(heights[box], dtype=np.float64)
-    offsets, drop = tip(profile, pitch, -float(sunken.min()), max(sunken.shape))
-    if not len(drop):
-        return heights
-    reach = int(offsets.max())
-    lowest = sunken.copy()
-    _highest(np.pad(sunken, reach), reach, offsets, drop, lowest)
+    box, _, _, lowest = found
     out = heights.copy()
     out[box] = lowest
     return out
@@ -157,17 +177,14 @@ def closing(heights: Floats, pitch: float, profile: Profile) -> Floats:
         mm; nowhere below the heights nor above 0, and `heights` itself where the
         cutter is narrower than the lattice.
     """
-    lowest = lowest_tips(heights, pitch, profile)
-    if lowest is heights:
+    found = _lowered(heights, pitch, profile)
+    if found is None:
         return heights
-    box = _sunken(heights)
-    sunken = np.ascontiguousarray(heights[box], dtype=np.float64)
-    offsets, drop = tip(profile, pitch, -float(sunken.min()), max(sunken.shape))
-    reach = int(offsets.max())
-    left = -lowest[box]
+    box, offsets, drop, lowest = found
+    reach, left = int(offsets.max()), -lowest
     _highest(np.pad(left, reach), reach, offsets, drop, left)
     out = heights.copy()
-    out[box] = np.maximum(-left, sunken)
+    out[box] = np.maximum(-left, heights[box])
     return out
 
 

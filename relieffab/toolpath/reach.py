@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
+from relieffab.relief.reach import sunken_box
 from relieffab.toolpath.envelope import Terrain, nodes, tip_surface
 
 Floats = NDArray[np.float64]
@@ -34,11 +35,9 @@ def leaves(heights: Floats, pitch: float, cutter: Cutter) -> Floats:
     (rows, cols) ndarray
         mm; nowhere below the heights nor above 0.
     """
-    below = heights < 0
-    if not below.any():
+    if not (heights < 0).any():
         return heights
-    rows, cols = np.flatnonzero(below.any(axis=1)), np.flatnonzero(below.any(axis=0))
-    box = slice(rows[0], rows[-1] + 1), slice(cols[0], cols[-1] + 1)
+    box = sunken_box(heights)
     # Beyond its border a terrain is level, tips are not: the border has to be out of reach.
     border = ceil(max(cutter.radius, cutter.shank_radius) / pitch) + 1
     wide = np.pad(heights[box], border)
