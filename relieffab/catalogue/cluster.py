@@ -3,7 +3,7 @@
 import logging
 import sys
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import CancelledError, Future
 from types import TracebackType
 from typing import Any
@@ -102,6 +102,9 @@ class Cluster:
         asked = self._client.submit(_on_worker, self._work, task, key=key, pure=False)
         asked.add_done_callback(lambda done: _pass_on(done, future))
         return future
+
+    def trim(self, running: Mapping["Future[Result]", Task]) -> None:
+        """Leave it to Dask, which ends workers above their own memory limit."""
 
     def settle(self, future: "Future[Result]") -> str:
         """Say how often workers died of a job, if they did."""

@@ -2,7 +2,7 @@
 
 import traceback
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import replace
 from typing import Protocol
@@ -35,6 +35,9 @@ class Engine(Protocol):
 
     def submit(self, task: Task) -> "Future[Result]":
         """Have a task carried out."""
+
+    def trim(self, running: Mapping["Future[Result]", Task]) -> None:
+        """End a worker that takes more memory than was set aside for it, if it must be."""
 
     def settle(self, future: "Future[Result]") -> str:
         """Take the worker of a finished future back; say what it died of, if it did."""
@@ -70,6 +73,7 @@ def outcomes(
             begun[ready.name] += 1
             running[engine.submit(ready)] = ready
         heed()
+        engine.trim(running)
         for future in wait(running, timeout=TICK, return_when=FIRST_COMPLETED).done:
             task = running.pop(future)
             death = engine.settle(future)
@@ -94,7 +98,8 @@ def _too_large(task: Task, room: int) -> Fault:
 
 def _died(death: str) -> Fault:
     return Fault(
-        f"{death}\n  try: a lower --resolution, fewer --workers; or relieffab make on it alone"
+        f"{death}\n"
+        "  try: a lower --resolution, fewer --workers, more --memory; or relieffab make on it alone"
     )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from relieffab.catalogue.lists import LISTS, Wanted, of_model, read_list, wants_jobs
 from relieffab.errors import InputError
 from relieffab.job.folder import REPORT
-from relieffab.layers.content import MESH, content_of
+from relieffab.layers.content import MESH, PICTURE, SVG, content_of
 from relieffab.layers.mesh import USUAL_UP
 
 
@@ -17,8 +17,8 @@ def wanted(sources: Sequence[str], output: Path) -> list[Wanted]:
     Parameters
     ----------
     sources : sequence of str
-        Folders (every mesh in them, however deep, and every job file; pictures there may be
-        textures), lists, job files, models.
+        Folders (every mesh in them, however deep, and every job file; pictures where there
+        is no mesh, for beside one they may be textures), lists, job files, models.
     output : Path
         Where results go: nothing in there is a model to carve.
 
@@ -31,7 +31,7 @@ def wanted(sources: Sequence[str], output: Path) -> list[Wanted]:
     if not found:
         raise InputError(
             "there is nothing to carve",
-            expected=f"models ({' '.join(USUAL_UP)}) or job files (.toml)",
+            expected=f"models ({' '.join(USUAL_UP)}), pictures or job files (.toml)",
             where=", ".join(sources),
         )
     return found
@@ -56,12 +56,19 @@ def _of(path: Path, output: Path) -> list[Wanted]:
 
 
 def _of_folder(folder: Path, output: Path) -> list[Wanted]:
-    """Take every mesh of a folder but those that a job file in it speaks for."""
+    """Take every mesh of a folder, or every picture, but those that a job file in it speaks for."""
     files = list(_files(folder, output))
     jobs = [job for path in files if path.suffix.lower() == ".toml" for job in _of_toml(path)]
-    spoken_for = {Path(job.model).resolve() for job in jobs if job.model}
+    spoken_for = {path.resolve() for job in jobs for path in _named(job)}
     models = [path for path in files if path.suffix.lower() in USUAL_UP]
+    models = models or [path for path in files if content_of(path) in (PICTURE, SVG)]
     return [*jobs, *(of_model(path) for path in models if path.resolve() not in spoken_for)]
+
+
+def _named(job: Wanted) -> list[Path]:
+    """Name the files that a job takes: its model, and what else of pictures it names."""
+    values = [job.model, *(values.get("mask") for _, values in job.files)]
+    return [Path(value) for value in values if value]
 
 
 def _of_toml(path: Path) -> list[Wanted]:

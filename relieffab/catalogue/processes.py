@@ -4,15 +4,18 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing.process import BaseProcess
 from types import TracebackType
 
+import psutil
+
 from relieffab.catalogue.task import Result, Task, Work
 from relieffab.catalogue.work import carry_out
+from relieffab.units import memory_text
 
 THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """What the libraries read, once, when they start."""
@@ -20,12 +23,14 @@ THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_
 
 def cores() -> int:
     """Count the cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    process = psutil.Process()
+    mine = len(process.cpu_affinity()) if hasattr(process, "cpu_affinity") else os.cpu_count()
+    return mine or 1
 
 
 def machine_memory() -> int:
     """Return the memory of this machine, bytes."""
-    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return int(psutil.virtual_memory().total)
 
 
 class Processes:
@@ -72,6 +77,26 @@ class Processes:
         self._busy[future] = worker
         return future
 
+    def trim(self, running: Mapping["Future[Result]", Task]) -> None:
+        """End the worker farthest above what was set aside for it, if all take more than they may.
+
+        Workers without a job go first: they keep what their last one took.
+        """
+        taken = {future: self._busy[future].memory() for future in running}
+        spare = [worker for worker in self._idle if worker.memory()]
+        if sum(taken.values()) + sum(worker.memory() for worker in spare) <= self.room:
+            return
+        for worker in spare:
+            worker.end()
+        if sum(taken.values()) <= self.room:
+            return
+        worst = max(running, key=lambda future: taken[future] - running[future].memory)
+        self._busy[worst].kill(
+            f"the worker was ended: it took {memory_text(taken[worst])} where "
+            f"{memory_text(running[worst].memory)} were set aside, "
+            f"and all together more than {memory_text(self.room)}"
+        )
+
     def settle(self, future: "Future[Result]") -> str:
         """Take the worker of a finished future back; say what it died of, if it did."""
         worker = self._busy.pop(future)
@@ -86,6 +111,7 @@ class _Worker:
         self._work, self._threads = work, threads
         self._pool: ProcessPoolExecutor | None = None
         self._process: BaseProcess | None = None
+        self._guilt = ""
 
     def submit(self, task: Task) -> "Future[Result]":
         if self._pool is None:
@@ -105,9 +131,28 @@ class _Worker:
         self._process = next(iter(set(multiprocessing.active_children()) - before), None)
         return future
 
+    def memory(self) -> int:
+        """Measure what is resident of the process and of those it has begun, bytes."""
+        if self._process is None or self._process.pid is None:
+            return 0
+        try:
+            parent = psutil.Process(self._process.pid)
+            family = [parent, *parent.children(recursive=True)]
+        except psutil.NoSuchProcess:
+            return 0
+        return sum(_resident(process) for process in family)
+
+    def kill(self, guilt: str) -> None:
+        """End the process in the middle of its job, for a reason that `death` will give."""
+        self._guilt = guilt
+        if self._process is not None:
+            self._process.kill()
+
     def death(self) -> str:
-        process = self._process
+        process, guilt = self._process, self._guilt
         self.end()
+        if guilt:
+            return guilt
         code = process.exitcode if process else None
         if code is None or code >= 0:
             return f"the worker ended before the job did (exit status {code})"
@@ -121,6 +166,14 @@ class _Worker:
                 self._process.kill()
             self._pool.shutdown(cancel_futures=True)
         self._pool = self._process = None
+        self._guilt = ""
+
+
+def _resident(process: psutil.Process) -> int:
+    try:
+        return int(process.memory_info().rss)
+    except psutil.NoSuchProcess:
+        return 0
 
 
 @contextmanager

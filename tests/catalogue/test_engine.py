@@ -33,6 +33,9 @@ class Scripted:
             future.set_result(become)
         return future
 
+    def trim(self, running):
+        pass
+
     def settle(self, future):
         return future.death
 

@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 
 from relieffab.catalogue.listing import wanted
@@ -18,6 +20,19 @@ def test_a_folder_is_walked_but_not_what_jobs_have_left(tmp_path):
         "b.STL",
         "deep/er/c.obj",
     ]
+
+
+def test_pictures_are_models_where_there_is_no_mesh(tmp_path):
+    (tmp_path / "b.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    for name in ("a.png", "c.jpg", "figure.png"):
+        (tmp_path / name).write_bytes(b"\x89PNG\r\n\x1a\n........")
+    (tmp_path / "job.toml").write_text('model = "a.png"\nmask = "figure.png"')
+    (tmp_path / "notes.txt").touch()
+    found = wanted([str(tmp_path)], tmp_path / "out")
+    assert [Path(job.model).name for job in found] == ["a.png", "b.svg", "c.jpg"]
+    (tmp_path / "model.ply").touch()
+    found = wanted([str(tmp_path)], tmp_path / "out")
+    assert [Path(job.model).name for job in found] == ["a.png", "model.ply"]
 
 
 def test_a_job_file_speaks_for_its_model(tmp_path):

@@ -2,6 +2,7 @@ import multiprocessing
 import os
 import signal
 import time
+from pathlib import Path
 
 from relieffab.catalogue import run
 from relieffab.catalogue.processes import THREADS, Processes, cores
@@ -66,6 +67,46 @@ def test_memory_says_how_many_run_at_once():
         return Task("", {}, "", "", None, "", memory)
 
     assert Processes(3, 10).free([task(6)]) == 4
+
+
+def hoard(amount):
+    """Take so many bytes, and keep them."""
+    held = b"x" * amount
+    time.sleep(600)
+    return len(held)
+
+
+def ended(engine, running):
+    """Trim until a worker has ended; return whose."""
+    while not any(future.done() for future in running):
+        engine.trim(running)
+        time.sleep(0.05)
+    return [task.name for future, task in running.items() if future.done()]
+
+
+def test_a_worker_far_above_its_share_is_ended_where_all_take_too_much():
+    def task(name, memory):
+        return Task(name, {}, "", "", Path(), "", memory)
+
+    with Processes(2, 500 << 20, hoard) as engine:
+        frugal, greedy = engine.submit(1 << 20), engine.submit(600 << 20)
+        running = {frugal: task("frugal", 300 << 20), greedy: task("greedy", 200 << 20)}
+        assert ended(engine, running) == ["greedy"]
+        told = engine.settle(greedy)
+        assert "200 MiB were set aside" in told
+        assert "more than 500 MiB" in told
+
+
+def test_workers_without_a_job_go_before_those_that_have_one():
+    with Processes(2, 10 << 30, abs) as engine:
+        busy, idle = engine.submit(1), engine.submit(2)
+        idle.result()
+        engine.settle(idle)
+        engine.room = engine._busy[busy].memory() + (1 << 20)
+        engine.trim({busy: Task("", {}, "", "", Path(), "", 1)})
+        assert busy.result() == 1
+        assert engine.settle(busy) == ""
+        assert len(multiprocessing.active_children()) == 1
 
 
 def test_eight_jobs_and_a_worker_killed_midway(stones):
