@@ -1,5 +1,7 @@
 from pathlib import Path
 
+from PIL import Image
+
 from relieffab.catalogue.needs import memory_of
 
 MiB = 2**20
@@ -20,3 +22,9 @@ def test_a_large_model_takes_its_part(tmp_path):
     with file.open("wb") as scan:
         scan.truncate(65_536_084)  # 1,310,720 triangles took 2,340 MiB
     assert 2340 * MiB <= memory_of("relief", (256, 192), file) < 1.3 * 2340 * MiB
+
+
+def test_a_picture_counts_by_its_pixels_however_small_its_file(tmp_path):
+    Image.new("RGB", (4000, 3000)).save(tmp_path / "photo.jpg")
+    estimate = memory_of("relief", (512, 384), tmp_path / "photo.jpg")
+    assert 1108e6 <= estimate < 1.3 * 1108e6
