@@ -16,7 +16,8 @@ REPORT = "report.json"
 # What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
 MARKS = ("smooth.tiff", "layers/marks.svg")
-RELIEF = ("relief.tiff", "relief.png", "preview.png")
+WALLS = "walls.tiff"
+RELIEF = ("relief.tiff", "relief.png", WALLS, "preview.png")
 SOLIDS = {
     name: (
         *(f"{name}.{kind}" for kind in FORMATS),

@@ -34,7 +34,7 @@ from relieffab.job.stocks import Drawn, round_of, stock_files
 from relieffab.layers.model import Layers
 from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Floats, Relief
 from relieffab.relief.store import read_relief
 from relieffab.relief.style.model import Marks
 
@@ -99,13 +99,14 @@ def _carve(
     report: Report,
     folder: Path,
     progress: Progress,
+    walls: Floats | None = None,
 ) -> None:
     """Make the job's solid and write it, its picture in its 3MF, too.
 
     Before there is a panel, preview.png shows the relief.
     """
     with _timed(report, job.solid, progress):
-        solid, facts = solids.make(relief, stock, job, progress)
+        solid, facts = solids.make(relief, stock, job, progress, walls=walls)
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
@@ -232,14 +233,14 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     """
     job, report = job_of(settings), read_report(folder)
     solids.check(job)
-    relief = read_relief(folder / "relief.tiff")
+    relief, walls = read_relief(folder / "relief.tiff"), reliefs.read_walls(folder)
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
         _reported(report, scratch, folder),
         stock_files(job, scratch) as (stock, report["stock"]),
     ):
-        _carve(relief, stock, job, report, scratch, progress)
+        _carve(relief, stock, job, report, scratch, progress, walls)
     return report
 
 

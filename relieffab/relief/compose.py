@@ -1,13 +1,14 @@
 """Several reliefs on one panel, each at its place."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
+from relieffab.relief.edge import wall
 from relieffab.relief.model import Floats, Relief, nodes_of
 
 MOST = 16384  # pixels each way
@@ -69,11 +70,17 @@ def _check_inside(part: Placed, size: tuple[float, float]) -> None:
         )
 
 
+def _heights(part: Placed, grid: Grid) -> Floats:
+    """Take a relief's surface at another grid's nodes."""
+    x, y = grid.node_axes()
+    dx, dy = part.at
+    return part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
+
+
 def _sampled(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
     """Take a relief's surface at another grid's nodes, and its figure at the pixels."""
     x, y = grid.node_axes()
-    dx, dy = part.at
-    heights = part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
+    heights = _heights(part, grid)
     row, col = part.grid.to_index(x[:-1] + grid.pitch / 2, y[:-1] - grid.pitch / 2)
     i, j = np.floor(row + ROUNDING).astype(int), np.floor(col + ROUNDING).astype(int)
     rows, cols = part.grid.shape
@@ -130,3 +137,43 @@ def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
         heights += found
         owner[mask] = k
     return Relief(grid, heights, owner >= 0, max(part.relief.depth for part in parts))
+
+
+def walls_of(relief: Relief, wall_angle: float) -> Relief:
+    """Give the lowest heights that leave a relief's walls, as a surface of its own.
+
+    Parameters
+    ----------
+    relief : Relief
+    wall_angle : float
+        That it was carved with, degrees.
+
+    Returns
+    -------
+    Relief
+        Of the same grid and figure; walls go on down to where they meet, for the panel
+        it becomes a part of may be deeper.
+    """
+    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
+    return replace(relief, heights=edge, depth=max(relief.depth, -float(edge.min())))
+
+
+def laid_out(parts: Sequence[Placed], grid: Grid) -> Floats:
+    """Lay out what belongs to the reliefs of `compose`, in the same places.
+
+    Parameters
+    ----------
+    parts : sequence of Placed
+        Surfaces that are 0 wherever another is not.
+    grid : Grid
+        Of what `compose` gave.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        mm.
+    """
+    heights = np.zeros(grid.node_shape)
+    for part in parts:
+        heights += _heights(part, grid)
+    return heights
