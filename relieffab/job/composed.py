@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from relieffab.job import looking, pictures, reliefs
+from relieffab.cutter import Cutter
+from relieffab.job import looking, pictures, reliefs, styles
 from relieffab.job.drawn import read_strokes
 from relieffab.job.folder import ALL, WALLS, check_folder, finished_together
+from relieffab.job.marked import styles_in
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of, resolve
 from relieffab.job.stocks import stock_of
@@ -14,24 +16,34 @@ from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
 from relieffab.relief.compose import Placed, compose, laid_out, walls_of
-from relieffab.relief.model import Relief, nodes_of
+from relieffab.relief.model import Floats, Relief, nodes_of
 from relieffab.relief.store import read_relief, to_tiff
+from relieffab.relief.style.model import Marks
 
 Place = tuple[Path, tuple[float, float]]
 
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A finished folder and its place."""
+    """A finished folder and its place.
+
+    `smooth` is the relief before its marks, if it has any.
+    """
 
     folder: Path
     at: tuple[float, float]
     report: Report
     relief: Relief
+    marks: tuple[Marks, ...]
 
     @classmethod
     def read(cls, folder: Path, at: tuple[float, float]) -> "_Part":
-        return cls(folder, at, read_report(folder), read_relief(folder / "relief.tiff"))
+        report, relief = read_report(folder), read_relief(folder / "relief.tiff")
+        return cls(folder, at, report, relief, styles.read_marks(folder, report))
+
+    @property
+    def smooth(self) -> Relief:
+        return self.marks[0].smooth if self.marks else self.relief
 
     @property
     def wall_angle(self) -> float:
@@ -44,7 +56,7 @@ class _Part:
     def walls(self) -> Relief:
         if (self.folder / WALLS).is_file():
             return read_relief(self.folder / WALLS)
-        return walls_of(self.relief, self.wall_angle)
+        return walls_of(self.smooth, self.wall_angle)
 
     def strokes(self) -> list[Stroke]:
         return [replace(s, points=s.points + self.at) for s in read_strokes(self.folder)]
@@ -56,6 +68,7 @@ class _Part:
             "place_mm": list(self.at),
             "wall_angle_deg": self.wall_angle,
             "sha256": self.report["relief"].get("sha256"),
+            "styles": [{"relief": self.folder.name, **one} for one in styles_in(self.report)],
         }
 
 
@@ -113,14 +126,33 @@ def make(
     job = job_of(settings)
     progress("compose", 0, 1)
     parts = [_Part.read(path, at) for path, at in places]
-    relief = compose([part.placed(part.relief) for part in parts], job.size)
-    check_clear(nodes_of(relief.mask), relief.grid, stock_of(job), relief.depth)
+    relief, marks = _composed(parts, job.size)
+    sunk = nodes_of(relief.mask) | (relief.heights < 0)
+    check_clear(sunk, relief.grid, stock_of(job), relief.depth)
     report = _report(settings, parts, relief)
     with finished_together(folder, ALL) as scratch:
         _write(relief, parts, job, report, scratch)
+        if marks:
+            styles.write_marks(marks, job, scratch)
         write_report(report, scratch)
     progress("compose", 1, 1)
     return report
+
+
+def _composed(
+    parts: Sequence[_Part], size: tuple[float, float]
+) -> tuple[Relief, tuple[Marks, ...]]:
+    """Lay the reliefs out, and the lines of their marks: one for each cutter."""
+    smooth = compose([part.placed(part.smooth) for part in parts], size)
+    lines: dict[Cutter, list[Floats]] = {}
+    for part in parts:
+        for one in part.marks:
+            lines.setdefault(one.cutter, []).extend(line + part.at for line in one.lines)
+    if not lines:
+        return smooth, ()
+    heights = laid_out([part.placed(part.relief) for part in parts], smooth.grid)
+    marks = [Marks(cutter, smooth, tuple(own)) for cutter, own in lines.items()]
+    return replace(smooth, heights=heights), tuple(marks)
 
 
 def _walls(parts: Sequence[_Part], relief: Relief) -> Relief:

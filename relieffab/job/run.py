@@ -69,7 +69,7 @@ def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Seen:
 
 def _solve(
     job: Job, report: Report, folder: Path, progress: Progress
-) -> tuple[Layers, Relief, Marks | None]:
+) -> tuple[Layers, Relief, tuple[Marks, ...]]:
     seen = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
         relief, report["relief"] = reliefs.solve_relief(seen.layers, job, seen.carve, progress)
@@ -81,15 +81,15 @@ def _solve(
 
 def _mark(
     smooth: Relief, layers: Layers, job: Job, report: Report, folder: Path, progress: Progress
-) -> tuple[Relief, Marks | None]:
+) -> tuple[Relief, tuple[Marks, ...]]:
     """Give the relief the marks of the job's style, if it has one."""
     if styles.style_of(job).plain:
-        return smooth, None
+        return smooth, ()
     with _timed(report, "style", progress):
         relief, marks, report["style"] = styles.mark(smooth, layers, job)
-        styles.write_marks(marks, job, folder)
+        styles.write_marks([marks], job, folder)
     report["relief"].update(reliefs.relief_part(relief))
-    return relief, marks
+    return relief, (marks,)
 
 
 def _carve(
@@ -247,9 +247,9 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
 def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
     """Plan, write and judge the programs of a relief that lies in a folder, beside it."""
     job, report = job_of(settings), read_report(folder)
-    milling.check(job)
-    relief = read_relief(folder / "relief.tiff")
-    strokes, marks = drawn.read_strokes(folder), styles.read_marks(folder, job)
+    relief, strokes = read_relief(folder / "relief.tiff"), drawn.read_strokes(folder)
+    marks = styles.read_marks(folder, report)
+    milling.check(job, marks)
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
@@ -264,8 +264,8 @@ def add_template(settings: Settings, folder: Path, *, progress: Progress = silen
     Its contours are those of the form, without a chisel's marks.
     """
     job, report = job_of(settings), read_report(folder)
-    marks, strokes = styles.read_marks(folder, job), drawn.read_strokes(folder)
-    relief = marks.smooth if marks else read_relief(folder / "relief.tiff")
+    marks, strokes = styles.read_marks(folder, report), drawn.read_strokes(folder)
+    relief = marks[0].smooth if marks else read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, TEMPLATE) as scratch,

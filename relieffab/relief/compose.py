@@ -11,6 +11,8 @@ from relieffab.grid import Grid
 from relieffab.relief.edge import wall
 from relieffab.relief.model import Floats, Relief, nodes_of
 
+Bools = NDArray[np.bool_]
+
 MOST = 16384  # pixels each way
 ROUNDING = 1e-6
 
@@ -77,7 +79,7 @@ def _heights(part: Placed, grid: Grid) -> Floats:
     return part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
 
 
-def _sampled(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
+def _sampled(part: Placed, grid: Grid) -> tuple[Floats, Bools]:
     """Take a relief's surface at another grid's nodes, and its figure at the pixels."""
     x, y = grid.node_axes()
     heights = _heights(part, grid)
@@ -120,23 +122,15 @@ def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
     for part in parts:
         _check_inside(part, size)
     grid = _common(parts, size)
-    heights, owner = np.zeros(grid.node_shape), np.full(grid.shape, -1)
+    heights, figure = np.zeros(grid.node_shape), np.zeros(grid.shape, bool)
     for k, part in enumerate(parts):
         found, mask = _sampled(part, grid)
-        both = nodes_of(mask) & nodes_of(owner >= 0)
+        both = nodes_of(mask) & nodes_of(figure)
         if both.any():
-            i, j = np.argwhere(both)[0]
-            x, y = grid.to_xy(int(i), int(j))
-            others = {parts[n].name for n in np.unique(owner[mask & (owner >= 0)])}
-            raise InputError(
-                f"{part.name} overlaps {' and '.join(sorted(others)) or 'its neighbour'}",
-                expected="figures that do not touch",
-                found=f"both at X {x:.2f} Y {y:.2f}",
-                hint="places further apart",
-            )
+            raise _overlap(part, parts[:k], grid, both)
         heights += found
-        owner[mask] = k
-    return Relief(grid, heights, owner >= 0, max(part.relief.depth for part in parts))
+        figure |= mask
+    return Relief(grid, heights, figure, max(part.relief.depth for part in parts))
 
 
 def walls_of(relief: Relief, wall_angle: float) -> Relief:
@@ -164,7 +158,7 @@ def laid_out(parts: Sequence[Placed], grid: Grid) -> Floats:
     Parameters
     ----------
     parts : sequence of Placed
-        Surfaces that are 0 wherever another is not.
+        Their walls, say, or the reliefs with their marks.
     grid : Grid
         Of what `compose` gave.
 
@@ -172,8 +166,30 @@ def laid_out(parts: Sequence[Placed], grid: Grid) -> Floats:
     -------
     (rows + 1, cols + 1) ndarray
         mm.
+
+    Raises
+    ------
+    InputError
+        If two of them are sunk at one place.
     """
     heights = np.zeros(grid.node_shape)
-    for part in parts:
-        heights += _heights(part, grid)
+    for k, part in enumerate(parts):
+        found = _heights(part, grid)
+        both = (found < 0) & (heights < 0)
+        if both.any():
+            raise _overlap(part, parts[:k], grid, both)
+        heights += found
     return heights
+
+
+def _overlap(part: Placed, others: Sequence[Placed], grid: Grid, both: Bools) -> InputError:
+    """Say where a relief meets others at nodes."""
+    i, j = np.argwhere(both)[0]
+    x, y = grid.to_xy(int(i), int(j))
+    met = [one.name for one in others if one.relief.height_at(x - one.at[0], y - one.at[1]) < 0]
+    return InputError(
+        f"{part.name} overlaps {' and '.join(met) or 'its neighbour'}",
+        expected="figures that do not touch, nor the pecked ground of another",
+        found=f"both at X {x:.2f} Y {y:.2f}",
+        hint="places further apart",
+    )

@@ -88,7 +88,7 @@ def test_each_keeps_its_own_walls(folders, tmp_path):
     slopes = np.degrees(np.arctan(np.hypot(*pixel_slopes(walls.heights, walls.grid.pitch))))
     left, right = slopes[:, : walls.grid.cols // 2], slopes[:, walls.grid.cols // 2 :]
     assert np.median(left[left > 0]) == pytest.approx(80, abs=1)
-    assert np.median(right[right > 0]) == pytest.approx(45, abs=1)
+    assert np.median(right[right > 0]) == pytest.approx(45, abs=2)
     # A panel that is composed already is laid out as any other, with all its walls.
     assert run(["compose", f"{both}@0x0mm", "--size", "95x40mm", "-o", str(again)]) == 0
     np.testing.assert_array_equal(read_relief(again / "walls.tiff").heights, walls.heights)
