@@ -48,6 +48,7 @@ def left_by(relief: Relief, marks: Marks) -> Floats:
     grid = relief.grid
     deepest = float((marks.smooth.heights - relief.heights).max())
     table, reach = tip_table(marks.cutter, deepest)
+    whole = marks.cutter.profile(np.linspace(0.0, marks.cutter.radius, len(table)))
     left = marks.smooth.heights.copy()
     # Between nodes a tip would sink: so there are more of them.
     fine, half = finer(relief.heights), grid.pitch / 2
@@ -57,6 +58,6 @@ def left_by(relief: Relief, marks: Marks) -> Floats:
         x, y = (np.interp(at, lengths, line[:, k]) for k in (0, 1))
         row, col = grid.to_index(x, y)
         z = np.empty(len(at))
-        _stand(fine, 2 * row, 2 * col, table, reach, half, z)
+        _stand(fine, 2 * row, 2 * col, whole, marks.cutter.radius, half, z)
         sweep(row, col, -z, table, reach, grid.pitch, left)
     return np.maximum(left, relief.heights)

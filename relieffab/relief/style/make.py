@@ -14,7 +14,7 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.relief.groove import inked
 from relieffab.relief.model import Relief, inner_nodes, nodes_of, pixel_slopes
-from relieffab.relief.style.contact import axes, leaning
+from relieffab.relief.style.contact import axes, guarded_tips, kept_up, leaning
 from relieffab.relief.style.field import fixed_field, form_field
 from relieffab.relief.style.hatch import darkness
 from relieffab.relief.style.model import Marks, Style, mark_width
@@ -33,6 +33,9 @@ Complexes = NDArray[np.complex128]
 STEEP = 1.2  # slope of walls and occlusions: no stroke climbs them
 LINE = 0.05  # of a line's depth, where its groove begins
 BARE = 0.02  # mm, the shallowest mark
+WAVER = 0.01  # mm that a lattice makes a tip that touches seem to be kept up
+YIELD = 3.0  # of what a cutter is kept up its mark loses: pressed on, it would mark what keeps it
+BRIEF = 1.0  # spacings: what is left of a stroke and shorter is a dab, no mark of a chisel
 BESIDE = 0.3  # mm of level ground between pecks and the figure
 BORDER = 2.5  # mm of level ground at the edge of the panel
 SEED = 1
@@ -64,31 +67,37 @@ def _sampled(image: Floats, places: Floats) -> Floats:
     return ndimage.map_coordinates(image, places.T, order=1, mode="nearest")  # type: ignore[no-any-return]
 
 
-def _held(
-    found: Sequence[Stroke], room: Floats, lean: Floats, cutter: Cutter, pitch: float
-) -> list[Stroke]:
+def _held(found: Sequence[Stroke], smooth: Relief, clear: Bools, style: Style) -> list[Stroke]:
     """Set strokes by the cutter's axis, shallower beside lines, that none reaches into one.
 
     Between the place meant and the axis something else may be what the tip touches
-    first: there must be room, too.
+    first: there must be room, too.  Where it is kept up all the same, by a wall across
+    a narrow floor or by a hollow rounder than itself, the stroke fades.
     """
-    out = []
+    pitch, cutter = smooth.grid.pitch, style.tool
+    room, lean = ndimage.distance_transform_edt(clear), leaning(smooth.heights, pitch, clear)
+    tips = guarded_tips(smooth.heights, pitch, cutter, style.chisel.depth)
+    brief, out = BRIEF * style.chisel.spacing / pitch, []
     for places, deep in found:
         axis = axes(places, lean, cutter.tip_radius / pitch)
         way = (places, 0.5 * (places + axis), axis)
         least = np.min([_sampled(room, there) for there in way], axis=0) * pitch
         # Pixels' steps along a line would be steps in the stroke beside it.
         least = ndimage.gaussian_filter1d(least, EVEN, mode="nearest")
-        out += _runs(axis, np.minimum(deep, cutter.profile(least)))
+        kept = kept_up(smooth.heights, tips, places, axis, cutter, pitch) - WAVER
+        kept = ndimage.maximum_filter1d(np.maximum(kept, 0.0), 2 * int(brief / 2) + 1)
+        kept = ndimage.gaussian_filter1d(kept, EVEN, mode="nearest")
+        most = np.minimum(style.chisel.depth - YIELD * kept, cutter.profile(least))
+        out += _runs(axis, np.minimum(deep, most), brief)
     return out
 
 
-def _runs(places: Floats, deep: Floats) -> list[Stroke]:
-    """Leave out the stretches of a stroke that are hardly there."""
+def _runs(places: Floats, deep: Floats, brief: float) -> list[Stroke]:
+    """Leave out the stretches of a stroke that are hardly there, and what is brief between."""
     there = np.concatenate([[False], deep >= BARE, [False]])
     edges = np.flatnonzero(np.diff(there.astype(int)))
     pairs = zip(edges[::2], edges[1::2], strict=True)
-    return [(places[a:b], deep[a:b]) for a, b in pairs if b - a > 1]
+    return [(places[a:b], deep[a:b]) for a, b in pairs if b - a > brief]
 
 
 def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]:
@@ -114,7 +123,7 @@ def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]
     if chisel.tone:
         dark = darkness(layers, chisel.spacing)
         found = [(places, deep * _sampled(dark, places)) for places, deep in found]
-    return _held(found, room, leaning(smooth.heights, pitch, clear), style.tool, pitch)
+    return _held(found, smooth, clear, style)
 
 
 def _least_room(cutter: Cutter) -> float:

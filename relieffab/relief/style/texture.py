@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 Stroke = tuple[Floats, Floats]
 
 STEEPEST = 0.6  # of the tip's radius: so high above its lowest point it still touches a slope
+BROAD = 2.5  # of a mark's depth: so high up a cone still cuts, on a slope of 0.6
 EVEN = 4.0  # samples of a stroke, about pixels
 GRAIN = 0.01  # mm
 SAMPLES = 512  # of the tip's profile
@@ -29,7 +30,9 @@ def tip_table(cutter: Cutter, deepest: float) -> tuple[Floats, float]:
     reach : float
         The last of those distances, mm.
     """
-    reach = min(reach_of(cutter.profile, deepest + STEEPEST * cutter.tip_radius), cutter.radius)
+    reach = min(
+        reach_of(cutter.profile, BROAD * deepest + STEEPEST * cutter.tip_radius), cutter.radius
+    )
     return cutter.profile(np.linspace(0.0, reach, SAMPLES)), reach
 
 
