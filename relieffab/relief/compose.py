@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.relief.edge import wall
-from relieffab.relief.model import Floats, Relief, nodes_of
+from relieffab.relief.model import Floats, Relief, nodes_of, sunk_pixels
 
 Bools = NDArray[np.bool_]
 
@@ -89,9 +89,7 @@ def _sampled(part: Placed, grid: Grid) -> tuple[Floats, Bools]:
     known = ((i >= 0) & (i < rows))[:, None] & ((j >= 0) & (j < cols))[None, :]
     mask = known & part.relief.mask[np.clip(i, 0, rows - 1)][:, np.clip(j, 0, cols - 1)]
     # A node on a wall may lie just outside all pixels whose centres are in the figure.
-    lone = (heights < 0) & ~nodes_of(mask)
-    mask |= lone[:-1, :-1] | lone[:-1, 1:] | lone[1:, :-1] | lone[1:, 1:]
-    return heights, mask
+    return heights, sunk_pixels(heights, mask)
 
 
 def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
@@ -182,11 +180,18 @@ def laid_out(parts: Sequence[Placed], grid: Grid) -> Floats:
     return heights
 
 
+def _reaches(part: Placed, x: float, y: float) -> bool:
+    """Whether a relief is sunk at a place, or its figure within a pixel of it."""
+    i, j = (int(np.floor(k)) for k in part.grid.to_index(x, y))
+    near = part.relief.mask[max(i - 1, 0) : max(i + 2, 0), max(j - 1, 0) : max(j + 2, 0)]
+    return bool(near.any() or part.relief.height_at(x - part.at[0], y - part.at[1]) < 0)
+
+
 def _overlap(part: Placed, others: Sequence[Placed], grid: Grid, both: Bools) -> InputError:
     """Say where a relief meets others at nodes."""
     i, j = np.argwhere(both)[0]
     x, y = grid.to_xy(int(i), int(j))
-    met = [one.name for one in others if one.relief.height_at(x - one.at[0], y - one.at[1]) < 0]
+    met = [one.name for one in others if _reaches(one, float(x), float(y))]
     return InputError(
         f"{part.name} overlaps {' and '.join(met) or 'its neighbour'}",
         expected="figures that do not touch, nor the pecked ground of another",

@@ -83,3 +83,16 @@ def test_walls_are_laid_out_each_at_its_own_angle():
         found = edge[row : row + 25, col : col + 41][inside > 3]
         np.testing.assert_allclose(found, -tangent * 0.5 * (inside[inside > 3] - 1.0))
     assert not edge[~nodes_of(made.mask)].any()
+
+
+def test_pecks_may_not_lie_on_another_figure():
+    grid = Grid(12, 16, 0.5, (0.0, 6.0))
+    none = np.zeros(grid.shape, bool)
+    peck = np.zeros(grid.node_shape)
+    peck[6, 14] = -0.2
+    one, other = relief(), Relief(grid, peck, none, 2.0)
+    places = [Placed(one, (7.5, 0), "a"), Placed(other, (3, 0), "b")]
+    made = compose([places[0]], (16, 6))
+    assert (laid_out(places[:1], made.grid) == made.heights).all()
+    with pytest.raises(InputError, match=r"(?s)b overlaps a.*pecked ground"):
+        laid_out(places, made.grid)
