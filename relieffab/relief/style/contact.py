@@ -1,7 +1,7 @@
 """Where a tip's axis stands so that it touches a slope at a place, and whether it does."""
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 
 from relieffab.cutter import Cutter
@@ -66,16 +66,20 @@ def axes(places: Floats, lean: Floats, radius: float) -> Floats:
     return places + radius * np.stack(moved, axis=1)
 
 
-def guarded_tips(heights: Floats, pitch: float, cutter: Cutter, deep: float) -> Floats:
+def guarded_tips(
+    heights: Floats, clear: Bools, pitch: float, cutter: Cutter, deep: float
+) -> Floats:
     """Find the lowest places from which a cutter can still go down by a mark's depth.
 
-    There only what a mark is made of touches it: as much of its tip as `tip_table` has.
-    What the rest of it would meet on the way down counts as higher by the depth.
+    On its way down it may touch clear ground alone, with as much of its tip as marks are
+    made of (`tip_table`).  All else counts as higher by the depth.
 
     Parameters
     ----------
     heights : (n, m) ndarray
-        Of the surface at nodes, mm.
+        Of the surface at nodes, mm, none above 0.
+    clear : (n, m) ndarray of bool
+        Nodes that marks may take.
     pitch : float
         mm.
     cutter : Cutter
@@ -88,9 +92,11 @@ def guarded_tips(heights: Floats, pitch: float, cutter: Cutter, deep: float) -> 
         mm.
     """
     _, reach = tip_table(cutter, deep)
-    return lowest_tips(
-        heights, pitch, lambda r: cutter.profile(r) - np.where(np.asarray(r) > reach, deep, 0.0)
-    )
+
+    def profile(r: ArrayLike) -> Floats:
+        return cutter.profile(r) - np.where(np.asarray(r) > reach, deep, 0.0)
+
+    return lowest_tips(np.where(clear, heights - deep, heights), pitch, profile) + deep
 
 
 def kept_up(
@@ -105,7 +111,7 @@ def kept_up(
     heights : (n, m) ndarray
         Of the surface at nodes, mm.
     tips : (n, m) ndarray
-        From `guarded_tips`, mm.
+        Its lowest places: from `reach.lowest_tips`, or `guarded_tips`, mm.
     places, axis : (k, 2) ndarray
         Rows and columns, from `axes`.
     cutter : Cutter
