@@ -9,6 +9,7 @@ from typing import Any
 
 from relieffab.cli.interrupt import heeding
 from relieffab.job.folder import SOLIDS
+from relieffab.job.marked import styles_in
 from relieffab.job.settings import Chosen
 from relieffab.job.sheet.heed import heeds
 from relieffab.progress import Progress, silent
@@ -78,8 +79,9 @@ def _lines(report: Mapping[str, Any], folder: Path) -> None:
         relief = report["relief"]
         size = f"{relief['cols'] - 1} x {relief['rows'] - 1} pixels of {relief['pitch_mm']:.4f} mm"
         print(f"relief   {folder / relief['file']}  {size}, {relief['depth_mm']:g} mm deep")
-    for place, found in report.get("style", {}).get("measured", {}).items():
-        _marks(place, found)
+    for style in styles_in(report):
+        for place, found in style["measured"].items():
+            _marks(place, found)
     for name in SOLIDS:
         if name in report:
             _solid(name, report[name], folder)

@@ -20,7 +20,7 @@ from relieffab.gcode.simulate import simulate
 from relieffab.grid import Grid
 from relieffab.machine import Machine
 from relieffab.progress import Progress, silent
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, sunk_pixels
 from relieffab.stock import Stock
 from relieffab.toolpath.positions import Position
 
@@ -43,9 +43,10 @@ class Verification:
     gouge_mm : float
         Deepest cut into the relief, square to it, anywhere: flat face too.
     excess_p99_mm : float
-        99th percentile of what is left above the relief within the figure.
+        99th percentile of what is left above the relief within the figure and on marks
+        beside it.
     within_tolerance : float
-        Share of the figure's lattice nodes no further than `tolerance_mm` from
+        Share of the lattice nodes there no further than `tolerance_mm` from
         the relief, up or down.
     tolerance_mm : float
     air_cutting : float
@@ -57,7 +58,7 @@ class Verification:
     grid : Grid
         The lattice.
     figure : (rows + 1, cols + 1) ndarray of bool
-        Nodes of the lattice on the figure.
+        Nodes of the lattice on the figure and on marks beside it, as of a pecked ground.
     deviation : (rows + 1, cols + 1) ndarray of float32
         Carved height less the relief's at the lattice's nodes, mm; negative
         where too much is gone.  Read-only.
@@ -217,7 +218,7 @@ def air_cutting(programs: Sequence[Program], bites: Sequence[Floats]) -> float:
 
 
 def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
-    """Mark the lattice's nodes that lie on or at the edge of a pixel of the figure.
+    """Mark the lattice's nodes that lie on or at the edge of a pixel of figure or marks.
 
     Parameters
     ----------
@@ -231,7 +232,7 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
-    pixels = np.kron(relief.mask, np.ones((refine, refine), bool))
+    pixels = np.kron(sunk_pixels(relief.heights, relief.mask), np.ones((refine, refine), bool))
     nodes = np.zeros(grid.node_shape, bool)
     rows, cols = pixels.shape
     for i in (0, 1):

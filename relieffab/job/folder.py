@@ -15,8 +15,10 @@ REPORT = "report.json"
 
 # What each stage leaves, in their order; patterns where the count varies.
 LAYERS = ("layers/depth.png", "layers/lambert.png", "layers/lines.png", "layers/lines.svg")
-MARKS = ("smooth.tiff", "layers/marks.svg")
-RELIEF = ("relief.tiff", "relief.png", "preview.png")
+SMOOTH = "smooth.tiff"
+MARKS = (SMOOTH, "layers/marks.svg", "layers/marks-[0-9]*.svg")
+WALLS = "walls.tiff"
+RELIEF = ("relief.tiff", "relief.png", WALLS, "preview.png")
 SOLIDS = {
     name: (
         *(f"{name}.{kind}" for kind in FORMATS),
@@ -33,6 +35,7 @@ _NC = (
     "02-finish.nc",
     "03-lines.nc",
     "04-marks.nc",
+    "[0-9][0-9]-marks-[0-9]*.nc",
     "programs.nc",
 )
 PROGRAMS = (

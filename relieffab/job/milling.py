@@ -32,8 +32,10 @@ def cutters_of(job: Job) -> tuple[Cutter, Cutter, Cutter]:
     return profiles.cutter(job.rough), profiles.cutter(job.finish), profiles.cutter(job.lines)
 
 
-def all_cutters_of(job: Job) -> tuple[Cutter, ...]:
-    """Return the cutters of all programs, that of the marks too."""
+def all_cutters_of(job: Job, marks: Sequence[Marks] | None = None) -> tuple[Cutter, ...]:
+    """Return the cutters of all programs, those of marks too: the job's style's if not given."""
+    if marks is not None:
+        return (*cutters_of(job), *(one.cutter for one in marks))
     style = styles.style_of(job)
     return cutters_of(job) if style.plain else (*cutters_of(job), style.tool)
 
@@ -44,7 +46,7 @@ def setup_of(job: Job, depth: float) -> Setup:
     return Setup(machine, material, milled_of(job), depth, job.units)
 
 
-def positions_of(job: Job) -> tuple[Position | None, ...]:
+def positions_of(job: Job, marks: Sequence[Marks] | None = None) -> tuple[Position | None, ...]:
     """Return how the stock lies, time after time; (None,) where it need not be moved."""
     if job.positions is None:
         return (None,)
@@ -53,7 +55,7 @@ def positions_of(job: Job) -> tuple[Position | None, ...]:
     found = positions(
         stock_of(job),
         machine_of(job),
-        all_cutters_of(job),
+        all_cutters_of(job, marks),
         job.positions,
         overlap=job.overlap,
         zero=PLACES[job.work_zero],
@@ -68,8 +70,14 @@ def cut_settings(job: Job) -> Settings:
     return Settings(job.stepover, job.scallop, angle=angle, crossed=crossed, milling=milling)
 
 
-def check(job: Job) -> None:
+def check(job: Job, marks: Sequence[Marks] | None = None) -> None:
     """Refuse what can be seen to fail before any work is done.
+
+    Parameters
+    ----------
+    job : Job
+    marks : sequence of Marks, optional
+        Of a relief that is there already.
 
     Raises
     ------
@@ -79,10 +87,10 @@ def check(job: Job) -> None:
     styles.check(job)
     reliefs.carving_of(job)
     solids.check(job)
-    cutters = all_cutters_of(job)
+    cutters = all_cutters_of(job, marks)
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
-    for position in positions_of(job):
+    for position in positions_of(job, marks):
         check_tools(setup.machine, cutters, setup.stock, job.depth, position)
     cut_settings(job)
     if job.stepover is not None:
@@ -95,7 +103,7 @@ def plan_paths(
     job: Job,
     progress: Progress = silent,
     *,
-    marks: Marks | None = None,
+    marks: Sequence[Marks] = (),
 ) -> tuple[Planned, ...]:
     """Plan the toolpaths of a job, position after position."""
     stock = milled_of(job)
@@ -112,11 +120,11 @@ def plan_paths(
                 stock=stock,
                 settings=cut_settings(job),
                 position=position,
-                marks=laid_marks(marks, stock) if marks else None,
+                marks=[laid_marks(one, stock) for one in marks],
                 progress=progress,
             ),
         )
-        for position in positions_of(job)
+        for position in positions_of(job, marks)
     ]
     cut = tuple((position, paths) for position, paths in planned if paths)
     if not cut:

@@ -155,7 +155,8 @@ def _files(paths: Sequence[Toolpath], job: Job) -> list[tuple[str, list[Toolpath
 
 
 def _file(path: Toolpath) -> str:
-    return f"{NUMBERS[path.name]:02d}-{path.name}.nc"
+    stage, _, again = path.name.partition("-")
+    return f"{NUMBERS[stage] + int(again or 1) - 1:02d}-{path.name}.nc"
 
 
 def file_name(setup: Setup, path: Toolpath) -> str:

@@ -8,13 +8,14 @@ from typing import Any
 
 from relieffab import profiles
 from relieffab.job import styles
+from relieffab.job.folder import WALLS
 from relieffab.job.settings import Job
 from relieffab.layers.model import Layers
 from relieffab.progress import Progress, silent
 from relieffab.relief.make import make_relief
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Floats, Relief
 from relieffab.relief.png import to_png
-from relieffab.relief.store import to_tiff
+from relieffab.relief.store import read_relief, to_tiff
 from relieffab.relief.targets import Carving
 from relieffab.toolpath.reach import leaves
 
@@ -84,3 +85,12 @@ def write_relief(relief: Relief, folder: Path) -> str:
     (folder / "relief.tiff").write_bytes(packed)
     (folder / "relief.png").write_bytes(to_png(relief))
     return hashlib.sha256(packed).hexdigest()
+
+
+def read_walls(folder: Path) -> Floats | None:
+    """Read the lowest heights that leave the walls of a composed panel's figures, mm.
+
+    None where one wall angle, the job's, is that of all.
+    """
+    where = folder / WALLS
+    return read_relief(where).heights if where.is_file() else None

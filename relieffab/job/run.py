@@ -34,7 +34,7 @@ from relieffab.job.stocks import Drawn, round_of, stock_files
 from relieffab.layers.model import Layers
 from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Floats, Relief
 from relieffab.relief.store import read_relief
 from relieffab.relief.style.model import Marks
 
@@ -69,7 +69,7 @@ def _see(job: Job, report: Report, folder: Path, progress: Progress) -> Seen:
 
 def _solve(
     job: Job, report: Report, folder: Path, progress: Progress
-) -> tuple[Layers, Relief, Marks | None]:
+) -> tuple[Layers, Relief, tuple[Marks, ...]]:
     seen = _see(job, report, folder, progress)
     with _timed(report, "relief", progress):
         relief, report["relief"] = reliefs.solve_relief(seen.layers, job, seen.carve, progress)
@@ -81,15 +81,15 @@ def _solve(
 
 def _mark(
     smooth: Relief, layers: Layers, job: Job, report: Report, folder: Path, progress: Progress
-) -> tuple[Relief, Marks | None]:
+) -> tuple[Relief, tuple[Marks, ...]]:
     """Give the relief the marks of the job's style, if it has one."""
     if styles.style_of(job).plain:
-        return smooth, None
+        return smooth, ()
     with _timed(report, "style", progress):
         relief, marks, report["style"] = styles.mark(smooth, layers, job)
-        styles.write_marks(marks, job, folder)
+        styles.write_marks([marks], job, folder)
     report["relief"].update(reliefs.relief_part(relief))
-    return relief, marks
+    return relief, (marks,)
 
 
 def _carve(
@@ -99,13 +99,14 @@ def _carve(
     report: Report,
     folder: Path,
     progress: Progress,
+    walls: Floats | None = None,
 ) -> None:
     """Make the job's solid and write it, its picture in its 3MF, too.
 
     Before there is a panel, preview.png shows the relief.
     """
     with _timed(report, job.solid, progress):
-        solid, facts = solids.make(relief, stock, job, progress)
+        solid, facts = solids.make(relief, stock, job, progress, walls=walls)
     panel = solid if job.solid == "panel" else None
     with _timed(report, "picture", progress):
         if panel or "picture" not in report:
@@ -232,23 +233,23 @@ def add_panel(settings: Settings, folder: Path, *, progress: Progress = silent) 
     """
     job, report = job_of(settings), read_report(folder)
     solids.check(job)
-    relief = read_relief(folder / "relief.tiff")
+    relief, walls = read_relief(folder / "relief.tiff"), reliefs.read_walls(folder)
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, (*SOLIDS[job.solid], STOCK, FRAME)) as scratch,
         _reported(report, scratch, folder),
         stock_files(job, scratch) as (stock, report["stock"]),
     ):
-        _carve(relief, stock, job, report, scratch, progress)
+        _carve(relief, stock, job, report, scratch, progress, walls)
     return report
 
 
 def add_toolpaths(settings: Settings, folder: Path, *, progress: Progress = silent) -> Report:
     """Plan, write and judge the programs of a relief that lies in a folder, beside it."""
     job, report = job_of(settings), read_report(folder)
-    milling.check(job)
-    relief = read_relief(folder / "relief.tiff")
-    strokes, marks = drawn.read_strokes(folder), styles.read_marks(folder, job)
+    relief, strokes = read_relief(folder / "relief.tiff"), drawn.read_strokes(folder)
+    marks = styles.read_marks(folder, report)
+    milling.check(job, marks)
     report["settings"] = start_report(settings)["settings"]
     with finished_together(folder, PROGRAMS) as scratch, _reported(report, scratch, folder):
         with _timed(report, "toolpaths", progress):
@@ -263,8 +264,8 @@ def add_template(settings: Settings, folder: Path, *, progress: Progress = silen
     Its contours are those of the form, without a chisel's marks.
     """
     job, report = job_of(settings), read_report(folder)
-    marks, strokes = styles.read_marks(folder, job), drawn.read_strokes(folder)
-    relief = marks.smooth if marks else read_relief(folder / "relief.tiff")
+    marks, strokes = styles.read_marks(folder, report), drawn.read_strokes(folder)
+    relief = marks[0].smooth if marks else read_relief(folder / "relief.tiff")
     report["settings"] = start_report(settings)["settings"]
     with (
         finished_together(folder, TEMPLATE) as scratch,

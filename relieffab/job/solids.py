@@ -17,7 +17,7 @@ from relieffab.panel.rounds import make_round
 from relieffab.panel.tiles import split
 from relieffab.panel.tongues import layout, tongue_height
 from relieffab.progress import Progress, silent
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Floats, Relief
 from relieffab.round import Curved, Round, check_depth
 from relieffab.stock import Stock
 
@@ -65,7 +65,12 @@ def _check_round(stock: Round | Curved, job: Job) -> None:
 
 
 def make(
-    relief: Relief, drawn: Drawn, job: Job, progress: Progress = silent
+    relief: Relief,
+    drawn: Drawn,
+    job: Job,
+    progress: Progress = silent,
+    *,
+    walls: Floats | None = None,
 ) -> tuple[Panel, Facts]:
     """Make the solid that a job asks for, and what is to be said of a mould.
 
@@ -76,16 +81,17 @@ def make(
         The stock.
     job : Job
     progress : Progress
+    walls : (rows + 1, cols + 1) ndarray, optional
+        Lowest heights that leave the relief's walls, mm, where they are not all of the
+        job's angle.
     """
     tolerance = job.mesh_tolerance
     if not isinstance(drawn, Drafting):
         return make_round(relief, drawn, tolerance=tolerance, progress=progress), {}
     stock = drawn.stock
     if job.solid == "plaque":
-        angle = job.wall_angle
-        return make_plaque(
-            relief, stock, wall_angle=angle, tolerance=tolerance, progress=progress
-        ), {}
+        own = job.wall_angle if walls is None else walls
+        return make_plaque(relief, stock, walls=own, tolerance=tolerance, progress=progress), {}
     blank = drawn.blank()
     panel = make_panel(relief, stock, blank=blank, tolerance=tolerance, progress=progress)
     if job.solid == "panel":

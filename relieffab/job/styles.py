@@ -1,6 +1,8 @@
 """The style of a job: its marks on the relief, in files, and in the report."""
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
+from itertools import count
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -8,14 +10,16 @@ from typing import Any
 import numpy as np
 
 from relieffab import profiles
+from relieffab.cutter import Cutter
 from relieffab.grid import Grid
-from relieffab.job.folder import MARKS
+from relieffab.job.folder import SMOOTH
+from relieffab.job.marked import styles_in
 from relieffab.job.settings import Job
 from relieffab.job.stocks import stock_of
 from relieffab.layers.lines.names import MARK
 from relieffab.layers.lines.svg import strokes_from_svg, strokes_to_svg
 from relieffab.layers.model import Layers, Stroke
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Floats, Relief
 from relieffab.relief.store import read_relief, to_tiff
 from relieffab.relief.style.make import BORDER, carve_marks
 from relieffab.relief.style.measure import measure
@@ -23,7 +27,7 @@ from relieffab.relief.style.model import Marks, Style
 
 Part = dict[str, Any]
 
-SMOOTH, LINES = MARKS
+LINES = "layers/marks.svg"
 
 
 def style_of(job: Job) -> Style:
@@ -79,7 +83,7 @@ def mark(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks, Part]
             "cutter": asdict(style.tool),
             "strokes": len(marks.lines),
             "measured": measured,
-            "files": list(MARKS),
+            "files": [SMOOTH, LINES],
         },
     )
 
@@ -88,23 +92,42 @@ def _number(value: float) -> float | None:
     return round(value, 4) if isfinite(value) else None
 
 
-def write_marks(marks: Marks, job: Job, folder: Path) -> None:
-    """Write what `read_marks` reads: the relief before the marks, and their lines."""
-    (folder / SMOOTH).write_bytes(to_tiff(marks.smooth))
-    drawn = [Stroke(line, MARK, np.ones(len(line))) for line in marks.lines]
-    drawing = strokes_to_svg(drawn, job.size, width=job.line_width)
-    (folder / LINES).write_text(drawing, encoding="utf-8")
+def _drawings() -> Iterator[str]:
+    """Name the files of the marks' lines, one a cutter."""
+    yield LINES
+    stem, _, kind = LINES.rpartition(".")
+    yield from (f"{stem}-{k}.{kind}" for k in count(2))
 
 
-def read_marks(folder: Path, job: Job) -> Marks | None:
-    """Read the marks of a job's folder; None where its relief has none of its own.
+def write_marks(marks: Sequence[Marks], job: Job, folder: Path) -> None:
+    """Write what `read_marks` reads: the relief before the marks, and their lines.
 
-    A panel composed of others has marks and none of their lines: its programs cut
-    them as any other form.
+    Parameters
+    ----------
+    marks : sequence of Marks
+        One for each cutter, in the order in which the report's styles name them; one at least.
+    job : Job
+    folder : Path
     """
-    if not (folder / SMOOTH).is_file():
-        return None
-    where = folder / LINES
-    lines = strokes_from_svg(where.read_text(encoding="utf-8"), where=str(where))
+    (folder / SMOOTH).write_bytes(to_tiff(marks[0].smooth))
+    for one, file in zip(marks, _drawings(), strict=False):
+        drawn = [Stroke(line, MARK, np.ones(len(line))) for line in one.lines]
+        drawing = strokes_to_svg(drawn, job.size, width=job.line_width)
+        (folder / file).write_text(drawing, encoding="utf-8")
+
+
+def read_marks(folder: Path, report: Mapping[str, Any]) -> tuple[Marks, ...]:
+    """Read the marks of a job's folder, one for each cutter; none where its relief has none."""
+    cutters = dict.fromkeys(Cutter(**style["cutter"]) for style in styles_in(report))
+    if not cutters:
+        return ()
     smooth = read_relief(folder / SMOOTH)
-    return Marks(style_of(job).tool, smooth, tuple(stroke.points for stroke in lines))
+    return tuple(
+        Marks(cutter, smooth, _lines(folder / file))
+        for cutter, file in zip(cutters, _drawings(), strict=False)
+    )
+
+
+def _lines(where: Path) -> tuple[Floats, ...]:
+    found = strokes_from_svg(where.read_text(encoding="utf-8"), where=str(where))
+    return tuple(stroke.points for stroke in found)

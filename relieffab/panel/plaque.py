@@ -32,14 +32,22 @@ BEYOND = 1.0  # mm that the stock is taller, so that it only cuts sides
 ROUNDING = 1e-6
 
 
-def freed(relief: Relief, wall_angle: float) -> Floats:
+def _edge(relief: Relief, walls: float | Floats) -> Floats:
+    """Give the lowest heights that leave the walls."""
+    if isinstance(walls, np.ndarray):
+        return walls
+    return wall(relief.mask, relief.grid.pitch, walls, relief.depth)
+
+
+def freed(relief: Relief, walls: float | Floats) -> Floats:
     """Give the figure's heights as if no wall stood at its edge.
 
     Parameters
     ----------
     relief : Relief
-    wall_angle : float
-        That it was carved with, degrees.
+    walls : float or (rows + 1, cols + 1) ndarray
+        That it was carved with: their angle, degrees; or, where figures have walls of
+        their own, the lowest heights at the nodes that leave them, mm.
 
     Returns
     -------
@@ -47,8 +55,7 @@ def freed(relief: Relief, wall_angle: float) -> Floats:
         mm.  Nodes on the wall continue the nearest ones that are not; in a trench
         too narrow for a floor, those at its bottom.
     """
-    h, figure = relief.heights, nodes_of(relief.mask)
-    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
+    h, figure, edge = relief.heights, nodes_of(relief.mask), _edge(relief, walls)
     walled = figure & (h <= edge + SLACK * relief.depth)
     if not walled.any():
         return h
@@ -66,14 +73,14 @@ def freed(relief: Relief, wall_angle: float) -> Floats:
     return np.clip(found, -relief.depth, 0.0)
 
 
-def raised(relief: Relief, wall_angle: float = 80.0) -> Relief:
+def raised(relief: Relief, walls: float | Floats = 80.0) -> Relief:
     """Stand the figure of a sunken relief on a level ground.
 
     Parameters
     ----------
     relief : Relief
-    wall_angle : float, optional
-        That it was carved with, degrees.
+    walls : float or ndarray, optional
+        As in `freed`.
 
     Returns
     -------
@@ -81,8 +88,7 @@ def raised(relief: Relief, wall_angle: float = 80.0) -> Relief:
         At -depth outside the figure and along its edge; inside, the same heights,
         0 the highest, but for the slope down to the ground.
     """
-    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
-    heights = np.minimum(freed(relief, wall_angle), -relief.depth - edge)
+    heights = np.minimum(freed(relief, walls), -relief.depth - _edge(relief, walls))
     heights = np.where(nodes_of(relief.mask), heights, -relief.depth)
     return Relief(relief.grid, heights, relief.mask, relief.depth)
 
@@ -108,7 +114,7 @@ def make_plaque(
     relief: Relief,
     stock: Stock,
     *,
-    wall_angle: float = 80.0,
+    walls: float | Floats = 80.0,
     tolerance: float = 0.02,
     progress: Progress = silent,
 ) -> Panel:
@@ -119,8 +125,8 @@ def make_plaque(
     relief : Relief
     stock : Stock
         The base: the figure rises from it by up to the relief's depth.
-    wall_angle : float, optional
-        That the relief was carved with, degrees; the plaque's is the same.
+    walls : float or (rows + 1, cols + 1) ndarray, optional
+        That the relief was carved with, as in `freed`; the plaque's are the same.
     tolerance : float, optional
         Largest vertical distance from `raised` at any node and pixel centre, mm.
     progress : Progress, optional
@@ -144,7 +150,7 @@ def make_plaque(
     whole = replace(stock, thickness=stock.thickness + relief.depth)
     check(relief, whole)
     check_clear(nodes_of(relief.mask), relief.grid, stock, 0.0)
-    wide, (x, y) = _widened(raised(relief, wall_angle), stock)
+    wide, (x, y) = _widened(raised(relief, walls), stock)
     rows, cols = wide.grid.shape
     block = Stock(cols * wide.grid.pitch, rows * wide.grid.pitch, whole.thickness)
     panel = make_panel(wide, block, tolerance=tolerance, progress=progress)

@@ -1,14 +1,17 @@
 """Several reliefs on one panel, each at its place."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.relief.model import Floats, Relief, nodes_of
+from relieffab.relief.edge import wall
+from relieffab.relief.model import Floats, Relief, nodes_of, sunk_pixels
+
+Bools = NDArray[np.bool_]
 
 MOST = 16384  # pixels each way
 ROUNDING = 1e-6
@@ -69,20 +72,24 @@ def _check_inside(part: Placed, size: tuple[float, float]) -> None:
         )
 
 
-def _sampled(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
-    """Take a relief's surface at another grid's nodes, and its figure at the pixels."""
+def _heights(part: Placed, grid: Grid) -> Floats:
+    """Take a relief's surface at another grid's nodes."""
     x, y = grid.node_axes()
     dx, dy = part.at
-    heights = part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
+    return part.relief.height_at(x[None, :] - dx, y[:, None] - dy)
+
+
+def _sampled(part: Placed, grid: Grid) -> tuple[Floats, Bools]:
+    """Take a relief's surface at another grid's nodes, and its figure at the pixels."""
+    x, y = grid.node_axes()
+    heights = _heights(part, grid)
     row, col = part.grid.to_index(x[:-1] + grid.pitch / 2, y[:-1] - grid.pitch / 2)
     i, j = np.floor(row + ROUNDING).astype(int), np.floor(col + ROUNDING).astype(int)
     rows, cols = part.grid.shape
     known = ((i >= 0) & (i < rows))[:, None] & ((j >= 0) & (j < cols))[None, :]
     mask = known & part.relief.mask[np.clip(i, 0, rows - 1)][:, np.clip(j, 0, cols - 1)]
     # A node on a wall may lie just outside all pixels whose centres are in the figure.
-    lone = (heights < 0) & ~nodes_of(mask)
-    mask |= lone[:-1, :-1] | lone[:-1, 1:] | lone[1:, :-1] | lone[1:, 1:]
-    return heights, mask
+    return heights, sunk_pixels(heights, mask)
 
 
 def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
@@ -113,20 +120,81 @@ def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
     for part in parts:
         _check_inside(part, size)
     grid = _common(parts, size)
-    heights, owner = np.zeros(grid.node_shape), np.full(grid.shape, -1)
+    heights, figure = np.zeros(grid.node_shape), np.zeros(grid.shape, bool)
     for k, part in enumerate(parts):
         found, mask = _sampled(part, grid)
-        both = nodes_of(mask) & nodes_of(owner >= 0)
+        both = nodes_of(mask) & nodes_of(figure)
         if both.any():
-            i, j = np.argwhere(both)[0]
-            x, y = grid.to_xy(int(i), int(j))
-            others = {parts[n].name for n in np.unique(owner[mask & (owner >= 0)])}
-            raise InputError(
-                f"{part.name} overlaps {' and '.join(sorted(others)) or 'its neighbour'}",
-                expected="figures that do not touch",
-                found=f"both at X {x:.2f} Y {y:.2f}",
-                hint="places further apart",
-            )
+            raise _overlap(part, parts[:k], grid, both)
         heights += found
-        owner[mask] = k
-    return Relief(grid, heights, owner >= 0, max(part.relief.depth for part in parts))
+        figure |= mask
+    return Relief(grid, heights, figure, max(part.relief.depth for part in parts))
+
+
+def walls_of(relief: Relief, wall_angle: float) -> Relief:
+    """Give the lowest heights that leave a relief's walls, as a surface of its own.
+
+    Parameters
+    ----------
+    relief : Relief
+    wall_angle : float
+        That it was carved with, degrees.
+
+    Returns
+    -------
+    Relief
+        Of the same grid and figure; walls go on down to where they meet, for the panel
+        it becomes a part of may be deeper.
+    """
+    edge = wall(relief.mask, relief.grid.pitch, wall_angle, relief.depth)
+    return replace(relief, heights=edge, depth=max(relief.depth, -float(edge.min())))
+
+
+def laid_out(parts: Sequence[Placed], grid: Grid) -> Floats:
+    """Lay out what belongs to the reliefs of `compose`, in the same places.
+
+    Parameters
+    ----------
+    parts : sequence of Placed
+        Their walls, say, or the reliefs with their marks.
+    grid : Grid
+        Of what `compose` gave.
+
+    Returns
+    -------
+    (rows + 1, cols + 1) ndarray
+        mm.
+
+    Raises
+    ------
+    InputError
+        If two of them are sunk at one place.
+    """
+    heights = np.zeros(grid.node_shape)
+    for k, part in enumerate(parts):
+        found = _heights(part, grid)
+        both = (found < 0) & (heights < 0)
+        if both.any():
+            raise _overlap(part, parts[:k], grid, both)
+        heights += found
+    return heights
+
+
+def _reaches(part: Placed, x: float, y: float) -> bool:
+    """Whether a relief is sunk at a place, or its figure within a pixel of it."""
+    i, j = (int(np.floor(k)) for k in part.grid.to_index(x, y))
+    near = part.relief.mask[max(i - 1, 0) : max(i + 2, 0), max(j - 1, 0) : max(j + 2, 0)]
+    return bool(near.any() or part.relief.height_at(x - part.at[0], y - part.at[1]) < 0)
+
+
+def _overlap(part: Placed, others: Sequence[Placed], grid: Grid, both: Bools) -> InputError:
+    """Say where a relief meets others at nodes."""
+    i, j = np.argwhere(both)[0]
+    x, y = grid.to_xy(int(i), int(j))
+    met = [one.name for one in others if _reaches(one, float(x), float(y))]
+    return InputError(
+        f"{part.name} overlaps {' and '.join(met) or 'its neighbour'}",
+        expected="figures that do not touch, nor the pecked ground of another",
+        found=f"both at X {x:.2f} Y {y:.2f}",
+        hint="places further apart",
+    )

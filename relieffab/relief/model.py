@@ -48,6 +48,24 @@ def nodes_of(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return touched
 
 
+def sunk_pixels(heights: Floats, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Pixels of the figure, and those beside it that are cut all the same: a pecked ground's.
+
+    Parameters
+    ----------
+    heights : (rows + 1, cols + 1) ndarray
+        At nodes, mm, 0 where nothing is cut.
+    mask : (rows, cols) ndarray of bool
+
+    Returns
+    -------
+    (rows, cols) ndarray of bool
+        All that touch a node that is below 0 and no pixel of the figure's, besides the mask.
+    """
+    lone = (heights < 0) & ~nodes_of(mask)
+    return mask | lone[:-1, :-1] | lone[:-1, 1:] | lone[1:, :-1] | lone[1:, 1:]
+
+
 def inner_nodes(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Nodes whose four pixels are all in the mask, (rows + 1, cols + 1)."""
     whole = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), bool)

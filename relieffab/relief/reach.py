@@ -44,8 +44,8 @@ def tip(profile: Profile, pitch: float, depth: float, widest: int) -> tuple[Ints
     Parameters
     ----------
     profile : callable
-        Distance from the axis to height above the lowest point, mm; growing, and
-        infinite beyond the cutter.
+        Distance from the axis to height above the lowest point, mm; infinite beyond
+        the cutter.
     pitch : float
         mm.
     depth : float
@@ -60,7 +60,7 @@ def tip(profile: Profile, pitch: float, depth: float, widest: int) -> tuple[Ints
     drop : (n,) ndarray
         Height of the cutter there, mm.
     """
-    reach = int((profile(np.arange(widest + 1) * pitch) <= depth).sum()) - 1
+    reach = int(np.flatnonzero(profile(np.arange(widest + 1) * pitch) <= depth)[-1])
     side = np.arange(-reach, reach + 1)
     away = np.hypot(side[:, None], side)
     height = np.asarray(profile(away * pitch))

@@ -18,7 +18,7 @@ class Toolpath:
     Parameters
     ----------
     name : str
-        'rough', 'finish', 'lines' or 'marks'.
+        'rough', 'finish', 'lines' or 'marks'; 'marks-2' of a second cutter's.
     points : (n, 3) ndarray
         Positions of the cutter's tip, panel mm, Z0 on the face.
     feed : (n,) ndarray

@@ -49,7 +49,7 @@ def plan(
     stock: Stock | None = None,
     settings: Settings | None = None,
     position: Position | None = None,
-    marks: Marks | None = None,
+    marks: Sequence[Marks] = (),
     progress: Progress = silent,
 ) -> tuple[Toolpath, ...]:
     """Plan the carving of a relief.
@@ -70,15 +70,15 @@ def plan(
     settings : Settings, optional
     position : Position, optional
         Where the machine cannot reach all of the stock: what is cut is within this window.
-    marks : Marks, optional
-        Of the relief.
+    marks : sequence of Marks, optional
+        Of the relief, one for each cutter that makes them; all of one smooth relief.
     progress : Progress
 
     Returns
     -------
     tuple of Toolpath
         Those of 'rough', 'finish', 'lines' and 'marks' that have anything to cut; at a position
-        there may be none.
+        there may be none.  A second cutter's marks are 'marks-2'.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def plan(
     settings = settings or Settings()
     stepover = settings.stepover
     stepover = scallop_stepover(cutters[1], settings.scallop) if stepover is None else stepover
-    used = (*cutters, marks.cutter) if marks else cutters
+    used = (*cutters, *(one.cutter for one in marks))
     slab = stock or _bare_stock(relief)
     check(relief, machine, used, slab, stepover, position)
     check_stepover(scallop_stepover(cutters[2], settings.scallop), cutters[2])
@@ -99,13 +99,14 @@ def plan(
     def tell() -> None:
         progress("toolpaths", len(paths), len(used), "programs")
 
-    terrain = Terrain.of(marks.smooth if marks else relief, slab.radius)
+    terrain = Terrain.of(marks[0].smooth if marks else relief, slab.radius)
     bench = Bench(_part(terrain, position, used), settings, position, tell)
     stages: list[Stage] = [bench.rough, bench.finish, partial(bench.lines, strokes=strokes)]
     if marks:
         marked = _part(Terrain.of(relief, slab.radius), position, used)
-        stages.append(partial(bench.marks, marked=marked, lines=marks.lines))
-    for name, cutter, use, stage in zip(NAMES, used, uses, stages, strict=False):
+        stages += [partial(bench.marks, marked=marked, lines=one.lines) for one in marks]
+    names = (*NAMES, *(f"{NAMES[-1]}-{k}" for k in range(2, len(marks) + 1)))
+    for name, cutter, use, stage in zip(names, used, uses, stages, strict=False):
         tell()
         parts = stage(cutter, use.stepdown)
         points, feed = link(parts, Linking(machine, use, REACH, ramp=name == "rough"))

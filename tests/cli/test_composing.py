@@ -5,6 +5,8 @@ import pytest
 import trimesh
 
 from relieffab.cli.main import run
+from relieffab.panel.plaque import raised
+from relieffab.relief.model import pixel_slopes
 from relieffab.relief.store import read_relief
 
 SMALL = ["--size", "40x30mm", "--depth", "1.5mm", "--margin", "3mm", "--up", "z"]
@@ -72,10 +74,29 @@ def test_what_cannot_be_laid_out_is_refused(folders, tmp_path, capsys, places, m
     assert not out.exists()
 
 
-def test_walls_must_agree(folders, tmp_path, capsys):
-    steep = tmp_path / "steep"
-    more = ["--resolution", "100x75", "--wall-angle", "70deg", "-o", str(steep)]
+def test_each_keeps_its_own_walls(folders, tmp_path):
+    slanted, both, again = (tmp_path / name for name in ("slanted", "both", "again"))
+    more = ["--resolution", "100x75", "--wall-angle", "45deg", "-o", str(slanted)]
     assert run(["relief", str(folders / "ball.obj"), *SMALL, *more]) == 0
-    given = [f"{folders / 'fine'}@5x5mm", f"{steep}@50x5mm"]
-    assert run(["compose", *given, "--size", "95x40mm", "-o", str(tmp_path / "none")]) == 2
-    assert "differ in wall_angle" in capsys.readouterr().err
+    given = [f"{folders / 'fine'}@5x5mm", f"{slanted}@50x5mm"]
+    assert run(["compose", *given, "--size", "95x40mm", "-o", str(both)]) == 0
+    report = json.loads((both / "report.json").read_text())
+    assert [part["wall_angle_deg"] for part in report["reliefs"]] == [80, 45]
+    assert report["settings"]["wall_angle"] == "80deg"  # the steepest stands for all
+    walls, relief = read_relief(both / "walls.tiff"), read_relief(both / "relief.tiff")
+    assert (relief.heights >= walls.heights - 1e-5).all()
+    slopes = np.degrees(np.arctan(np.hypot(*pixel_slopes(walls.heights, walls.grid.pitch))))
+    left, right = slopes[:, : walls.grid.cols // 2], slopes[:, walls.grid.cols // 2 :]
+    assert np.median(left[left > 0]) == pytest.approx(80, abs=1)
+    assert np.median(right[right > 0]) == pytest.approx(45, abs=2)
+    # A panel that is composed already is laid out as any other, with all its walls.
+    assert run(["compose", f"{both}@0x0mm", "--size", "95x40mm", "-o", str(again)]) == 0
+    np.testing.assert_array_equal(read_relief(again / "walls.tiff").heights, walls.heights)
+    assert run(["panel", str(both), "--solid", "plaque"]) == 0
+    plaque = trimesh.load_mesh(both / "plaque.stl")
+    wanted = raised(relief, walls.heights)
+    assert plaque.is_volume
+    # One angle for both would take the slanted wall for the figure's own form.
+    assert np.abs(wanted.heights - raised(relief, 80.0).heights).max() > 0.3
+    height = (wanted.heights + relief.depth)[1:, 1:].sum() * relief.grid.pitch**2
+    assert plaque.volume == pytest.approx(95 * 40 * 12 + height, rel=1e-3)

@@ -46,6 +46,7 @@ def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
     ball = ("--size", "20x20mm", "--resolution", "80x80")
     bars = ("--text", "III", "--size", "20x10mm", "--resolution", "80x40")
     assert relieffab("relief", tmp_path / "ball.png", *ball, *small, "-o", figure) == 0
+    bars += ("--wall-angle", "45deg")
     assert relieffab("relief", font, *bars, *small, "-o", word) == 0
     assert "taken for a depth" in capsys.readouterr().err
     places = (f"{figure}@2x12mm", f"{word}@2x2mm")
@@ -54,7 +55,8 @@ def test_a_figure_and_a_text_are_carved_on_one_panel(tmp_path, font, capsys):
     assert relieffab("verify", both) == 0
     report = json.loads((both / "report.json").read_text())
     assert report["verification"]["gouge_mm"] < 0.01
-    assert [part["model"]["kind"] for part in report["reliefs"]] == ["depth", "text"]
+    kinds = [(part["model"]["kind"], part["wall_angle_deg"]) for part in report["reliefs"]]
+    assert kinds == [("depth", 80), ("text", 45)]
 
 
 def test_a_missing_glyph_is_said_and_nothing_written(tmp_path, font, capsys):

@@ -180,6 +180,14 @@ def test_nodes_of_the_figure():
     assert np.array_equal(grown[1:8, 1:8], fine)
 
 
+def test_marks_beside_the_figure_are_judged_too():
+    heights = RELIEF.heights.copy()
+    heights[4:8, 4:30] = -0.3  # as a pecked ground's, which no program here cuts
+    result = verify([TEXT], [BALL], replace(RELIEF, heights=heights), SETUP)
+    assert judge(TEXT).within_tolerance - result.within_tolerance > 0.01
+    assert result.figure.sum() - judge(TEXT).figure.sum() == (5 * 4 + 1) * (27 * 4 + 1)
+
+
 def test_what_the_cutter_cannot_reach_is_not_missed():
     grid = Grid(40, 40, 0.1, (0.0, 4.0))
     heights = np.zeros(grid.node_shape)

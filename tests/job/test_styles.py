@@ -80,10 +80,10 @@ def test_the_marks_have_a_program_of_their_own_and_all_of_it_is_proved(made):
 
 
 def test_without_the_marks_program_the_marks_are_missing(made):
-    folder, _ = made
+    folder, report = made
     job = default_job(**SETTINGS)
-    relief, marks = read_relief(folder / "relief.tiff"), styles.read_marks(folder, job)
-    ((_, paths),) = milling.plan_paths(relief, (), job, marks=marks)
+    relief, (marks,) = read_relief(folder / "relief.tiff"), styles.read_marks(folder, report)
+    ((_, paths),) = milling.plan_paths(relief, (), job, marks=[marks])
     tips = paths[-1].points[np.isfinite(paths[-1].feed)]
     assert paths[-1].name == "marks"
     # Its tip goes below the smooth relief by the marks' depth, and no deeper than the relief.
@@ -96,7 +96,7 @@ def test_a_template_shows_the_form_without_its_marks(made):
     folder, report = made
     job = default_job(**SETTINGS)
     run.add_template(gather(SETTINGS, None, {}), folder)
-    smooth, strokes = styles.read_marks(folder, job).smooth, read_strokes(folder)
+    smooth, strokes = styles.read_marks(folder, report)[0].smooth, read_strokes(folder)
     name = report["model"]["name"]
     wanted = make_template(smooth, strokes, stock_of(job), line_width=job.line_width, name=name)
     assert (folder / "template.svg").read_text() == to_svg(wanted)
@@ -123,17 +123,17 @@ def test_pecks_leave_room_for_every_cutter_beside_a_raised_frame():
 def test_marks_come_back_from_their_files(made, tmp_path):
     folder, report = made
     job = default_job(**SETTINGS)
-    marks = styles.read_marks(folder, job)
+    (marks,) = styles.read_marks(folder, report)
     assert marks.cutter.name == "ball-2"
     assert len(marks.lines) == report["style"]["strokes"]
     relief = read_relief(folder / "relief.tiff")
     assert (relief.heights <= marks.smooth.heights + 1e-6).all()
     (tmp_path / "layers").mkdir()
-    styles.write_marks(marks, job, tmp_path)
-    again = styles.read_marks(tmp_path, job)
+    styles.write_marks([marks], job, tmp_path)
+    (again,) = styles.read_marks(tmp_path, report)
     for one, other in zip(marks.lines, again.lines, strict=True):
         assert np.array_equal(one, other)
-    assert styles.read_marks(tmp_path / "layers", job) is None
+    assert styles.read_marks(tmp_path, {}) == ()
 
 
 def test_a_job_without_a_style_is_as_it_was():

@@ -3,7 +3,8 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.relief.compose import Placed, compose
+from relieffab.relief.compose import Placed, compose, laid_out, walls_of
+from relieffab.relief.edge import inward_distance
 from relieffab.relief.model import Relief, inner_nodes, nodes_of
 
 RNG = np.random.default_rng(3)
@@ -66,3 +67,32 @@ def test_places_that_do_not_fit_are_refused(places, message):
 def test_a_panel_of_too_many_pixels_is_refused():
     with pytest.raises(InputError, match="too many pixels"):
         compose([Placed(relief(pitch=0.01), (0, 0), "a")], (200, 10))
+
+
+def test_walls_are_laid_out_each_at_its_own_angle():
+    one, other = relief(24, 40), relief(24, 40)
+    places = ((1, 2), (23, 2))
+    made = compose(
+        [Placed(r, at, "a") for r, at in zip((one, other), places, strict=True)], (44, 16)
+    )
+    walls = walls_of(one, 80.0), walls_of(other, 45.0)
+    edge = laid_out([Placed(w, at, "a") for w, at in zip(walls, places, strict=True)], made.grid)
+    for (x, y), tangent in zip(places, (np.tan(np.radians(80.0)), 1.0), strict=True):
+        row, col = (round(v) for v in made.grid.to_index(x, y + 12))
+        inside = inward_distance(one.mask)
+        found = edge[row : row + 25, col : col + 41][inside > 3]
+        np.testing.assert_allclose(found, -tangent * 0.5 * (inside[inside > 3] - 1.0))
+    assert not edge[~nodes_of(made.mask)].any()
+
+
+def test_pecks_may_not_lie_on_another_figure():
+    grid = Grid(12, 16, 0.5, (0.0, 6.0))
+    none = np.zeros(grid.shape, bool)
+    peck = np.zeros(grid.node_shape)
+    peck[6, 14] = -0.2
+    one, other = relief(), Relief(grid, peck, none, 2.0)
+    places = [Placed(one, (7.5, 0), "a"), Placed(other, (3, 0), "b")]
+    made = compose([places[0]], (16, 6))
+    assert (laid_out(places[:1], made.grid) == made.heights).all()
+    with pytest.raises(InputError, match=r"(?s)b overlaps a.*pecked ground"):
+        laid_out(places, made.grid)

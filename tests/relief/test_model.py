@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.relief.model import Relief
+from relieffab.relief.model import Relief, sunk_pixels
 
 GRID = Grid(4, 6, 0.5, (1.0, 3.0))
 
@@ -50,3 +50,14 @@ def test_what_is_no_relief_is_refused(heights, words):
 def test_heights_cannot_be_changed():
     with pytest.raises(ValueError, match="read-only"):
         relief(np.zeros(GRID.node_shape)).heights[0, 0] = -1
+
+
+def test_what_is_sunk_beside_the_figure():
+    mask = np.zeros((4, 6), bool)
+    mask[1:3, 1:3] = True
+    heights = np.zeros((5, 7))
+    heights[1:4, 1:4] = -1.0  # the figure, down to its edge
+    np.testing.assert_array_equal(sunk_pixels(heights, mask), mask)
+    heights[2, 5] = -0.2  # a peck
+    mask[1:3, 4:6] = True
+    np.testing.assert_array_equal(sunk_pixels(heights, mask & (np.arange(6) < 3)), mask)

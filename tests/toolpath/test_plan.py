@@ -211,7 +211,7 @@ def test_marks_are_cut_last_into_the_finished_surface():
     marked = replace(smooth, heights=np.clip(np.minimum(ground, tips), -DEPTH, 0.0))
     machine, material = profiles.machine(), profiles.material()
     marks = Marks(cutter, smooth, (line, peck))
-    paths = plan(marked, strokes(), machine, material, marks=marks)
+    paths = plan(marked, strokes(), machine, material, marks=[marks])
     plain = plan(smooth, strokes(), machine, material)
     assert [path.name for path in paths] == ["rough", "finish", "lines", "marks"]
     for one, other in zip(paths[:3], plain, strict=True):

@@ -6,6 +6,7 @@ from typing import Any
 
 from relieffab.html import renderer
 from relieffab.job.folder import SOLIDS
+from relieffab.job.marked import styles_in
 from relieffab.job.settings import Job, job_of, resolve
 from relieffab.job.sheet import tools
 from relieffab.job.sheet.checklist import checklist
@@ -58,6 +59,7 @@ def page(report: Mapping[str, Any], folders: Sequence[Path] = ()) -> str:
         total=tools.total(report) if report.get("programs") else "",
         reaches=tools.reaches(report),
         checklist=checklist(report, stock, bent),
+        styles=styles_in(report),
         solids={name: report[name] for name in SOLIDS if name in report},
         hashes=_hashes(report),
         commands=commands(report),

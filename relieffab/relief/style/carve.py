@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from relieffab.compiled import kernel
 from relieffab.relief.model import Relief
 from relieffab.relief.style.model import Marks
-from relieffab.relief.style.texture import finer, tip_table
+from relieffab.relief.style.texture import refined, tip_table
 from relieffab.relief.sweep import sweep
 
 Floats = NDArray[np.float64]
@@ -48,15 +48,16 @@ def left_by(relief: Relief, marks: Marks) -> Floats:
     grid = relief.grid
     deepest = float((marks.smooth.heights - relief.heights).max())
     table, reach = tip_table(marks.cutter, deepest)
+    whole = marks.cutter.profile(np.linspace(0.0, marks.cutter.radius, len(table)))
     left = marks.smooth.heights.copy()
-    # Between nodes a tip would sink: so there are more of them.
-    fine, half = finer(relief.heights), grid.pitch / 2
+    # Between nodes that are few a tip would sink.
+    fine, per = refined(relief.heights, reach, grid.pitch)
     for line in marks.lines:
         lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
         at = np.linspace(0.0, lengths[-1], max(int(lengths[-1] / (STEP * grid.pitch)), 1) + 1)
         x, y = (np.interp(at, lengths, line[:, k]) for k in (0, 1))
         row, col = grid.to_index(x, y)
         z = np.empty(len(at))
-        _stand(fine, 2 * row, 2 * col, table, reach, half, z)
+        _stand(fine, per * row, per * col, whole, marks.cutter.radius, grid.pitch / per, z)
         sweep(row, col, -z, table, reach, grid.pitch, left)
     return np.maximum(left, relief.heights)

@@ -1,8 +1,12 @@
-"""Where a round tip's axis stands so that it touches a slope at a place."""
+"""Where a tip's axis stands so that it touches a slope at a place, and whether it does."""
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
+
+from relieffab.cutter import Cutter
+from relieffab.relief.reach import lowest_tips
+from relieffab.relief.style.texture import tip_table
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -60,3 +64,67 @@ def axes(places: Floats, lean: Floats, radius: float) -> Floats:
     """
     moved = [ndimage.map_coordinates(part, places.T, order=1, mode="nearest") for part in lean]
     return places + radius * np.stack(moved, axis=1)
+
+
+def guarded_tips(
+    heights: Floats, clear: Bools, pitch: float, cutter: Cutter, deep: float
+) -> Floats:
+    """Find the lowest places from which a cutter can still go down by a mark's depth.
+
+    On its way down it may touch clear ground alone, with as much of its tip as marks are
+    made of (`tip_table`).  All else counts as higher by the depth.
+
+    Parameters
+    ----------
+    heights : (n, m) ndarray
+        Of the surface at nodes, mm, none above 0.
+    clear : (n, m) ndarray of bool
+        Nodes that marks may take.
+    pitch : float
+        mm.
+    cutter : Cutter
+    deep : float
+        Of the marks, mm.
+
+    Returns
+    -------
+    (n, m) ndarray
+        mm.
+    """
+    _, reach = tip_table(cutter, deep)
+
+    def profile(r: ArrayLike) -> Floats:
+        return cutter.profile(r) - np.where(np.asarray(r) > reach, deep, 0.0)
+
+    return lowest_tips(np.where(clear, heights - deep, heights), pitch, profile) + deep
+
+
+def kept_up(
+    heights: Floats, tips: Floats, places: Floats, axis: Floats, cutter: Cutter, pitch: float
+) -> Floats:
+    """Find how far above the places it is to touch a cutter is kept by something else.
+
+    A wall beside a narrow floor holds it up, say: pressed on, it would mark the wall.
+
+    Parameters
+    ----------
+    heights : (n, m) ndarray
+        Of the surface at nodes, mm.
+    tips : (n, m) ndarray
+        Its lowest places: from `reach.lowest_tips`, or `guarded_tips`, mm.
+    places, axis : (k, 2) ndarray
+        Rows and columns, from `axes`.
+    cutter : Cutter
+    pitch : float
+        mm.
+
+    Returns
+    -------
+    (k,) ndarray
+        mm; 0 where it touches, to the lattice's grain.
+    """
+    tip, ground = (
+        ndimage.map_coordinates(image, at.T, order=1, mode="nearest")
+        for image, at in ((tips, axis), (heights, places))
+    )
+    return tip + cutter.profile(np.hypot(*(axis - places).T) * pitch) - ground  # type: ignore[no-any-return]

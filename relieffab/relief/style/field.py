@@ -15,7 +15,9 @@ Complexes = NDArray[np.complex128]
 
 COARSE = 0.3  # mm: the field is found on cells about so wide
 MOST = 500  # of them along the figure's longer side
-CALM = 3.0  # mm over which directions that disagree are evened out
+CALM = (
+    6.0  # mm over which directions that disagree are evened out: less left ladders on flat ground
+)
 FLATTEST = 0.02  # 1/mm: ground that bends less has no direction of its own
 HABIT = 60.0, 0.01  # degrees, and weight: where the form says nothing, a right hand's stroke
 

@@ -14,7 +14,8 @@ from relieffab.grid import Grid
 from relieffab.layers.model import Layers
 from relieffab.relief.groove import inked
 from relieffab.relief.model import Relief, inner_nodes, nodes_of, pixel_slopes
-from relieffab.relief.style.contact import axes, leaning
+from relieffab.relief.reach import lowest_tips
+from relieffab.relief.style.contact import axes, guarded_tips, kept_up, leaning
 from relieffab.relief.style.field import fixed_field, form_field
 from relieffab.relief.style.hatch import darkness
 from relieffab.relief.style.model import Marks, Style, mark_width
@@ -33,6 +34,9 @@ Complexes = NDArray[np.complex128]
 STEEP = 1.2  # slope of walls and occlusions: no stroke climbs them
 LINE = 0.05  # of a line's depth, where its groove begins
 BARE = 0.02  # mm, the shallowest mark
+WAVER = 0.01  # mm that a lattice makes a tip that touches seem to be kept up
+YIELD = 8.0  # of what a cutter is kept up its mark loses: pressed on, it would mark what keeps it
+BRIEF = 1.0  # spacings: what is left of a stroke and shorter is a dab, no mark of a chisel
 BESIDE = 0.3  # mm of level ground between pecks and the figure
 BORDER = 2.5  # mm of level ground at the edge of the panel
 SEED = 1
@@ -65,34 +69,50 @@ def _sampled(image: Floats, places: Floats) -> Floats:
 
 
 def _held(
-    found: Sequence[Stroke], room: Floats, lean: Floats, cutter: Cutter, pitch: float
+    found: Sequence[Stroke], smooth: Relief, tips: Floats, clear: Bools, style: Style
 ) -> list[Stroke]:
-    """Set strokes by the cutter's axis, shallower beside lines, that none reaches into one.
+    """Set strokes by the cutter's axis, only as deep as takes nothing but clear ground.
 
-    Between the place meant and the axis something else may be what the tip touches
-    first: there must be room, too.
+    Where the cutter is kept up, by walls across a narrow floor or by a hollow rounder
+    than itself, the stroke fades: pressed on, it would mark what keeps it up.
     """
-    out = []
+    heights, pitch, cutter, chisel = smooth.heights, smooth.grid.pitch, style.tool, style.chisel
+    lean = leaning(heights, pitch, clear)
+    guard = guarded_tips(heights, clear, pitch, cutter, chisel.depth)
+    slack = WAVER + STEEP * cutter.flat_radius  # a flat stands on its edge
+    brief, out = BRIEF * chisel.spacing / pitch, []
     for places, deep in found:
         axis = axes(places, lean, cutter.tip_radius / pitch)
-        way = (places, 0.5 * (places + axis), axis)
-        least = np.min([_sampled(room, there) for there in way], axis=0) * pitch
         # Pixels' steps along a line would be steps in the stroke beside it.
-        least = ndimage.gaussian_filter1d(least, EVEN, mode="nearest")
-        out += _runs(axis, np.minimum(deep, cutter.profile(least)))
+        most = chisel.depth - _evened(kept_up(heights, guard, places, axis, cutter, pitch))
+        kept = np.maximum(kept_up(heights, tips, places, axis, cutter, pitch) - slack, 0.0)
+        kept = _evened(ndimage.maximum_filter1d(kept, 2 * int(brief / 2) + 1))
+        out += _runs(axis, np.minimum(deep, most) - YIELD * kept, brief)
     return out
 
 
-def _runs(places: Floats, deep: Floats) -> list[Stroke]:
-    """Leave out the stretches of a stroke that are hardly there."""
+def _evened(along: Floats) -> Floats:
+    return ndimage.gaussian_filter1d(along, EVEN, mode="nearest")  # type: ignore[no-any-return]
+
+
+def _runs(places: Floats, deep: Floats, brief: float) -> list[Stroke]:
+    """Leave out the stretches of a stroke that are hardly there, and what is brief between."""
     there = np.concatenate([[False], deep >= BARE, [False]])
     edges = np.flatnonzero(np.diff(there.astype(int)))
     pairs = zip(edges[::2], edges[1::2], strict=True)
-    return [(places[a:b], deep[a:b]) for a, b in pairs if b - a > 1]
+    return [(places[a:b], deep[a:b]) for a, b in pairs if b - a > brief]
 
 
-def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]:
+def figure_strokes(smooth: Relief, layers: Layers, style: Style, tips: Floats) -> list[Stroke]:
     """Lay a chisel's strokes over the figure.
+
+    Parameters
+    ----------
+    smooth : Relief
+    layers : Layers
+    style : Style
+    tips : (rows + 1, cols + 1) ndarray
+        Lowest places of the style's tool over the relief, mm.
 
     Returns
     -------
@@ -114,7 +134,7 @@ def figure_strokes(smooth: Relief, layers: Layers, style: Style) -> list[Stroke]
     if chisel.tone:
         dark = darkness(layers, chisel.spacing)
         found = [(places, deep * _sampled(dark, places)) for places, deep in found]
-    return _held(found, room, leaning(smooth.heights, pitch, clear), style.tool, pitch)
+    return _held(found, smooth, tips, clear, style)
 
 
 def _least_room(cutter: Cutter) -> float:
@@ -171,12 +191,13 @@ def carve_marks(
         If the marks are too deep for the relief or too fine for its pixels.
     """
     style.check(depth, smooth.grid.pitch)
-    found = [] if style.marks == NONE else figure_strokes(smooth, layers, style)
+    tips = lowest_tips(smooth.heights, smooth.grid.pitch, style.tool.profile)
+    found = [] if style.marks == NONE else figure_strokes(smooth, layers, style, tips)
     if style.pecked:
         found = found + ground_strokes(
             smooth, _bordered(smooth.grid) if ground is None else ground, style
         )
-    heights = textured(smooth.heights, smooth.grid.pitch, found, style.tool, depth)
+    heights = textured(smooth.heights, tips, smooth.grid.pitch, found, style.tool, depth)
     lines = tuple(np.column_stack(smooth.grid.to_xy(*places.T)) for places, _ in found)
     relief = replace(smooth, heights=heights, depth=depth)
     return relief, Marks(style.tool, replace(smooth, depth=depth), lines)

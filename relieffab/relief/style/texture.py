@@ -7,15 +7,16 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from relieffab.cutter import Cutter
-from relieffab.relief.reach import lowest_tips
 from relieffab.relief.sweep import reach_of, sweep
 
 Floats = NDArray[np.float64]
 Stroke = tuple[Floats, Floats]
 
 STEEPEST = 0.6  # of the tip's radius: so high above its lowest point it still touches a slope
+BROAD = 2.5  # of a mark's depth: so high up a cone still cuts, on a slope of 0.6
 EVEN = 4.0  # samples of a stroke, about pixels
 GRAIN = 0.01  # mm
+ENOUGH = 14  # nodes from the axis to where a tip ends: with fewer there are nodes put between
 SAMPLES = 512  # of the tip's profile
 
 
@@ -29,7 +30,9 @@ def tip_table(cutter: Cutter, deepest: float) -> tuple[Floats, float]:
     reach : float
         The last of those distances, mm.
     """
-    reach = min(reach_of(cutter.profile, deepest + STEEPEST * cutter.tip_radius), cutter.radius)
+    reach = min(
+        reach_of(cutter.profile, BROAD * deepest + STEEPEST * cutter.tip_radius), cutter.radius
+    )
     return cutter.profile(np.linspace(0.0, reach, SAMPLES)), reach
 
 
@@ -41,6 +44,19 @@ def finer(heights: Floats) -> Floats:
     fine[1::2, ::2] = 0.5 * (heights[1:] + heights[:-1])
     fine[:, 1::2] = 0.5 * (fine[:, 2::2] + fine[:, :-1:2])
     return fine
+
+
+def refined(heights: Floats, reach: float, pitch: float) -> tuple[Floats, int]:
+    """Give nodes close enough for a tip that ends so far from its axis, mm.
+
+    Returns
+    -------
+    heights : ndarray
+        `finer`, or as they are.
+    per : int
+        Nodes to one there was, each way.
+    """
+    return (heights, 1) if reach > ENOUGH * pitch else (finer(heights), 2)
 
 
 def _coarser(fine: Floats) -> Floats:
@@ -62,7 +78,12 @@ def _steady(z: Floats) -> Floats:
 
 
 def textured(
-    smooth: Floats, pitch: float, strokes: Sequence[Stroke], cutter: Cutter, depth: float
+    smooth: Floats,
+    tips: Floats,
+    pitch: float,
+    strokes: Sequence[Stroke],
+    cutter: Cutter,
+    depth: float,
 ) -> Floats:
     """Carve strokes into a surface.
 
@@ -75,6 +96,8 @@ def textured(
     ----------
     smooth : (n, m) ndarray
         At nodes, mm, -depth to 0.
+    tips : (n, m) ndarray
+        The cutter's lowest places over it, from `reach.lowest_tips`, mm.
     pitch : float
         mm.
     strokes : sequence of tuple of (k, 2) and (k,) ndarray
@@ -92,11 +115,11 @@ def textured(
         return smooth
     deepest = max(float(deep.max()) for _, deep in strokes)
     table, reach = tip_table(cutter, deepest)
-    tips = lowest_tips(smooth, pitch, cutter.profile)
-    fine = finer(smooth)
+    fine, per = refined(smooth, reach, pitch)
     left = fine.copy()
     for places, deep in strokes:
         z = _steady(ndimage.map_coordinates(tips, places.T, order=1, mode="nearest")) - deep
-        row, col = np.ascontiguousarray(2 * places.T)
-        sweep(row, col, np.minimum(-z, depth), table, reach, pitch / 2, left)
-    return np.clip(smooth - _coarser(fine - left), -depth, smooth)
+        row, col = np.ascontiguousarray(per * places.T)
+        sweep(row, col, np.minimum(-z, depth), table, reach, pitch / per, left)
+    cut = fine - left if per == 1 else _coarser(fine - left)
+    return np.clip(smooth - cut, -depth, smooth)

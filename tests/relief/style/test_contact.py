@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
+from relieffab import profiles
 from relieffab.relief.reach import ball, lowest_tips
-from relieffab.relief.style.contact import axes, leaning
+from relieffab.relief.style.contact import axes, guarded_tips, kept_up, leaning
 
 PITCH = 0.1
 
@@ -36,3 +37,26 @@ def test_walls_do_not_lean_on_what_is_beside_them():
     clear = np.ones(heights.shape, bool)
     clear[:, 29:32] = False
     assert np.abs(leaning(heights, PITCH, clear)[:, clear]).max() == 0
+
+
+def test_the_walls_of_a_trench_keep_a_cutter_up():
+    """By the height of its flank at the rims, and by a mark's depth where that is no part of it."""
+    heights = np.full((81, 81), -0.8)
+    heights[:33], heights[48:] = 0.0, 0.0
+    places = np.array([[40.0, 20.0], [40.0, 60.0], [10.0, 40.0]])
+    # Rims are 0.8 mm off, where the vee's flank is 0.7 mm high, beyond its mark; the ball's 0.4.
+    for name, deep, kept in (("vee-90", 0.1, 0.8 - 0.7 + 0.1), ("ball-2", 0.1, 0.8 - 0.4)):
+        cutter = profiles.cutter(name)
+        tips = guarded_tips(heights, np.ones(heights.shape, bool), PITCH, cutter, deep)
+        found = kept_up(heights, tips, places, places, cutter, PITCH)
+        np.testing.assert_allclose(found, [kept, kept, 0.0], atol=1e-6)
+
+
+def test_ground_that_is_not_clear_is_not_touched():
+    """A line as far off as a mark so deep is half wide lets it be so deep, and no nearer one."""
+    cutter, deep = profiles.cutter("vee-90"), 0.3
+    heights, clear = np.full((81, 81), -1.0), np.ones((81, 81), bool)
+    clear[:, 40] = False
+    guard = guarded_tips(heights, clear, PITCH, cutter, deep)
+    kept = kept_up(heights, guard, *[np.array([[40.0, 42.0], [40.0, 44.0]])] * 2, cutter, PITCH)
+    np.testing.assert_allclose(kept, deep - cutter.profile([0.2, 0.4]).clip(0, deep), atol=1e-9)

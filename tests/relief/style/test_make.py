@@ -18,6 +18,7 @@ from relieffab.relief.style.make import BESIDE, BORDER, carve_marks, clear_of_li
 from relieffab.relief.style.measure import measure
 from relieffab.relief.style.model import Style, mark_width
 
+DEPTH = 3.0
 LIGHT = np.array([[0.0, 0.0, 1.0]])
 
 
@@ -56,9 +57,10 @@ def test_hatching_is_deep_in_the_dark_and_absent_in_the_light(ball):
     cut = marks.smooth.heights - relief.heights
     x, y = np.meshgrid(*relief.grid.node_axes())
     inside = np.hypot(x - 12, y - 9) < 6.5
-    # Both lights come from above: the near half is in the shade.
+    # Both lights come from above: the near half is in the shade, darkest where the wall
+    # around the figure keeps a vee up.
     dark, light = cut[inside & (y < 5)], cut[inside & (y > 12.5)]
-    assert dark.max() > 0.25 and light.max() < 0.05
+    assert dark.max() > 0.15 and light.max() < 0.05
 
 
 def test_pecks_are_round_whole_and_clear_of_figure_and_border(level):
@@ -122,6 +124,22 @@ def test_carving_again_gives_the_same_marks(ball):
 def test_marks_that_the_pixels_cannot_show_are_refused(level):
     with pytest.raises(InputError, match="finer than the relief's pixels"):
         carve_marks(level.smooth, level.layers, Style("gouge", depth=0.001), depth=3.0)
+
+
+@pytest.mark.parametrize("name", ["flat", "gouge", "point"])
+def test_a_wall_that_keeps_the_cutter_up_is_not_marked(level, name):
+    """A trench too narrow for these cutters, in a level ground that is not."""
+    grid, style = level.smooth.grid, Style(name, direction=0.0)
+    x, y = np.meshgrid(*grid.node_axes())
+    away = np.maximum(np.abs(y - 9.0) - 0.4, 0.0)
+    inside = (np.abs(x - 12) < 9) & (np.abs(y - 9.0) < 3)
+    heights = np.where(inside, np.minimum(4.0 * away - 2.4, 0.0), 0.0)
+    smooth = replace(level.smooth, heights=heights, mask=level.smooth.mask)
+    relief, marks = carve_marks(smooth, level.layers, style, depth=DEPTH)
+    cut = smooth.heights - relief.heights
+    assert cut[(heights > -2.2) & (heights < -0.1)].max() < 0.01
+    assert cut.max() > 0.8 * style.chisel.depth
+    assert all(len(line) > style.chisel.spacing / grid.pitch for line in marks.lines)
 
 
 def test_strokes_go_where_the_cutter_finds_room(level):

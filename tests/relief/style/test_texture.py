@@ -5,10 +5,17 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from relieffab import profiles
+from relieffab.relief.reach import lowest_tips
 from relieffab.relief.style.chisels import CHISELS
-from relieffab.relief.style.texture import _coarser, finer, textured
+from relieffab.relief.style.texture import _coarser, finer
+from relieffab.relief.style.texture import textured as carve_into
 
 PITCH = 0.05
+
+
+def textured(smooth, pitch, strokes, cutter, depth):
+    tips = lowest_tips(smooth, pitch, cutter.profile)
+    return carve_into(smooth, tips, pitch, strokes, cutter, depth)
 
 
 def along_a_row(deep, rows=81, cols=121):
