@@ -139,6 +139,11 @@ class Curved:
         return Bend(self.radius, self.width / 2)
 
     @property
+    def breadth(self) -> float:
+        """How wide the board itself is, mm."""
+        return 2 * self.radius * sin(self.width / self.radius / 2)
+
+    @property
     def sagitta(self) -> float:
         """How far the face falls from its middle to its sides, mm."""
         return 2 * self.radius * sin(self.width / self.radius / 4) ** 2

@@ -18,8 +18,6 @@ from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 Part = dict[str, Any]
-Drawn = Drafting | Round | Curved
-"""A flat stock being drawn, or one of which nothing is drawn."""
 
 
 def round_of(job: Job) -> Round | Curved | None:
@@ -120,18 +118,14 @@ def machine_of(job: Job) -> Machine:
 
 
 @contextmanager
-def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drawn, Part]]:
+def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drafting, Part]]:
     """Write stock.step and frame.step beside whatever else is done.
 
-    The part, report.json's `stock`, says whether they came to be: a plain slab
-    does without them, and a round stock has none.
+    The part, report.json's `stock`, says whether they came to be: all but a shaped slab
+    does without them.
     """
-    bent = round_of(job)
-    if bent is not None:
-        yield bent, {"file": None, "note": "only a flat stock is drawn"}
-        return
     part: Part = {"file": None, "note": ""}
-    with drafting(stock_of(job), folder) as work:
+    with drafting(round_of(job) or stock_of(job), folder) as work:
         yield work, part
         try:
             work.finish()
@@ -139,5 +133,5 @@ def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drawn, Part]]:
             part["note"] = str(missing)
             return
     part["file"] = STOCK
-    if work.stock.frame:
+    if isinstance(work.stock, Stock) and work.stock.frame:
         part["frame"] = FRAME
