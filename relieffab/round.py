@@ -8,6 +8,8 @@ from relieffab.errors import InputError
 from relieffab.grid import Grid
 
 ROUNDING = 1e-6
+MEANT = 0.01
+"""mm that a panel's width may be off the way round that it is meant to be."""
 
 
 @dataclass(frozen=True)
@@ -157,6 +159,18 @@ class Curved:
     def all_round(self) -> bool:
         """Whether the panel's left and right edge meet: never."""
         return False
+
+
+def meant_width(width: float, diameter: float) -> float:
+    """Take a width that a person rounded for the way round.
+
+    Examples
+    --------
+    >>> meant_width(251.33, 80) == pi * 80, meant_width(251.3, 80)
+    (True, 251.3)
+    """
+    around = pi * diameter
+    return around if abs(width - around) < MEANT else width
 
 
 def check_depth(stock: Round | Curved, depth: float) -> None:

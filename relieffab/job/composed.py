@@ -10,11 +10,12 @@ from relieffab.job.drawn import read_strokes
 from relieffab.job.folder import ALL, check_folder, finished_together
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of, resolve
-from relieffab.job.stocks import stock_of
+from relieffab.job.stocks import round_of, stock_of
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
 from relieffab.relief.compose import Placed, compose
+from relieffab.relief.laid import parted
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.store import read_relief
 
@@ -37,8 +38,9 @@ def _agreed(reports: Sequence[Report]) -> dict[str, str]:
     return {name: text for name, text in found.items() if text}
 
 
-def _moved(stroke: Stroke, at: tuple[float, float]) -> Stroke:
-    return replace(stroke, points=stroke.points + at)
+def _moved(stroke: Stroke, at: tuple[float, float], around: float | None) -> list[Stroke]:
+    moved = replace(stroke, points=stroke.points + at)
+    return [moved] if around is None else parted(moved, around)
 
 
 def _report(
@@ -76,7 +78,8 @@ def make(
     settings : mapping of Chosen
         The panel's: size, thickness, outline, frame, holes.
     places : sequence of (folder, (X, Y))
-        Where the near left corner of each relief's own panel comes, mm.
+        Where the near left corner of each relief's own panel comes, mm; on a panel that goes
+        all the way round, X may be anything.
     folder : Path
         Where the files go: what `panel`, `template` and `toolpath` work on.
     overwrite : bool
@@ -97,11 +100,15 @@ def make(
     job = job_of(settings)
     progress("compose", 0, 1)
     parts = [Placed(read_relief(path / "relief.tiff"), at, path.name) for path, at in places]
-    relief = compose(parts, job.size)
-    stock = stock_of(job)
+    bent, stock = round_of(job), stock_of(job)
+    joined = bent is not None and bent.all_round
+    relief = compose(parts, job.size, joined=joined)
     check_clear(nodes_of(relief.mask), relief.grid, stock, relief.depth)
     report = _report(settings, reports, places, relief)
-    strokes = [_moved(s, at) for path, at in places for s in read_strokes(path)]
+    around = job.size[0] if joined else None
+    strokes = [
+        part for path, at in places for s in read_strokes(path) for part in _moved(s, at, around)
+    ]
     with finished_together(folder, ALL) as scratch:
         _write(relief, strokes, job, report, scratch)
         write_report(report, scratch)

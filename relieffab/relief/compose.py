@@ -1,7 +1,8 @@
 """Several reliefs on one panel, each at its place."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import ceil, floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,27 +40,41 @@ class Placed:
         return Grid(grid.rows, grid.cols, grid.pitch, (x + self.at[0], y + self.at[1]))
 
 
-def _common(parts: Sequence[Placed], size: tuple[float, float]) -> Grid:
-    """Cover the panel by pixels of the finest relief's pitch, in step with its nodes."""
+def _common(parts: Sequence[Placed], size: tuple[float, float], *, joined: bool) -> Grid:
+    """Cover the panel by pixels of the finest relief's pitch, in step with its nodes.
+
+    Where its edges join, a whole number of pixels goes round.
+    """
     finest = min((part.grid for part in parts), key=lambda grid: grid.pitch)
     pitch = finest.pitch
+    if joined:
+        cols = ceil(size[0] / pitch - ROUNDING)
+        pitch = size[0] / cols
+        rows = floor(size[1] / pitch + ROUNDING)
+        return _checked(Grid(rows, cols, pitch, (0.0, rows * pitch)))
     left, near = (int(np.floor(v / pitch + ROUNDING)) for v in finest.to_xy(finest.rows, 0))
     x1, y1 = finest.to_xy(0, finest.cols)
     right, far = (int(np.floor(v / pitch + ROUNDING)) for v in (size[0] - x1, size[1] - y1))
     rows, cols = finest.rows + near + far, finest.cols + left + right
-    if max(rows, cols) > MOST:
+    return _checked(Grid(rows, cols, pitch, finest.to_xy(-far, -left)))
+
+
+def _checked(grid: Grid) -> Grid:
+    if max(grid.shape) > MOST:
         raise InputError(
             "the panel would have too many pixels",
             expected=f"at most {MOST} each way",
-            found=f"{cols} x {rows} of the finest relief's {pitch:g} mm",
+            found=f"{grid.cols} x {grid.rows} of the finest relief's {grid.pitch:g} mm",
             hint="reliefs of a coarser --resolution",
         )
-    return Grid(rows, cols, pitch, finest.to_xy(-far, -left))
+    return grid
 
 
-def _check_inside(part: Placed, size: tuple[float, float]) -> None:
+def _check_inside(part: Placed, size: tuple[float, float], *, joined: bool) -> None:
     grid = part.grid
     (x0, y0), (x1, y1) = grid.to_xy(grid.rows, 0), grid.to_xy(0, grid.cols)
+    if joined:
+        x0, x1 = 0.0, x1 - x0
     if min(x0, y0) < -ROUNDING or x1 > size[0] + ROUNDING or y1 > size[1] + ROUNDING:
         raise InputError(
             f"{part.name} reaches beyond the panel",
@@ -85,18 +100,43 @@ def _sampled(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
     return heights, mask
 
 
-def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
+def _round_samples(part: Placed, grid: Grid) -> tuple[Floats, NDArray[np.bool_]]:
+    """Take a relief's surface and figure where the panel's left and right edge meet."""
+    around = grid.cols * grid.pitch
+    x = part.grid.origin[0]
+    turns = floor(x / around + ROUNDING)
+    heights, mask = np.zeros(grid.node_shape), np.zeros(grid.shape, bool)
+    for turn in (turns, turns + 1):
+        moved = replace(part, at=(part.at[0] - turn * around, part.at[1]))
+        found, inside = _sampled(moved, grid)
+        np.minimum(heights, found, out=heights)
+        mask |= inside
+    heights[:, 0] = heights[:, -1] = np.minimum(heights[:, 0], heights[:, -1])
+    return heights, mask
+
+
+def _nodes(mask: NDArray[np.bool_], *, joined: bool) -> NDArray[np.bool_]:
+    nodes = nodes_of(mask)
+    if joined:
+        nodes[:, 0] = nodes[:, -1] = nodes[:, 0] | nodes[:, -1]
+    return nodes
+
+
+def compose(parts: Sequence[Placed], size: tuple[float, float], *, joined: bool = False) -> Relief:
     """Lay reliefs out on one panel.
 
     The new relief has the pitch of the finest, and its nodes are in step with
     that one's: it, and all of its pitch that are whole pixels away from it, are
-    taken over exactly.  Others are sampled on their own triangles.
+    taken over exactly.  Others are sampled on their own triangles; where edges join, all are.
 
     Parameters
     ----------
     parts : sequence of Placed
     size : tuple of float
         The panel's X and Y, mm.
+    joined : bool, optional
+        Whether its left and right edge meet: then X counts on round, and a relief may lie
+        across the seam.
 
     Returns
     -------
@@ -111,12 +151,12 @@ def compose(parts: Sequence[Placed], size: tuple[float, float]) -> Relief:
     if not parts:
         raise InputError("there is no relief to lay out", expected="one or more")
     for part in parts:
-        _check_inside(part, size)
-    grid = _common(parts, size)
+        _check_inside(part, size, joined=joined)
+    grid = _common(parts, size, joined=joined)
     heights, owner = np.zeros(grid.node_shape), np.full(grid.shape, -1)
     for k, part in enumerate(parts):
-        found, mask = _sampled(part, grid)
-        both = nodes_of(mask) & nodes_of(owner >= 0)
+        found, mask = _round_samples(part, grid) if joined else _sampled(part, grid)
+        both = _nodes(mask, joined=joined) & _nodes(owner >= 0, joined=joined)
         if both.any():
             i, j = np.argwhere(both)[0]
             x, y = grid.to_xy(int(i), int(j))

@@ -6,6 +6,9 @@ that is a mirror image, and `Stock.to_work` mirrors it back.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
 
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
@@ -37,6 +40,50 @@ def _swapped(relief: Relief, width: float, height: float) -> Relief:
     grid, (x, y) = relief.grid, relief.grid.origin
     swapped = Grid(grid.cols, grid.rows, grid.pitch, (width - y, height - x))
     return Relief(swapped, relief.heights.T.copy(), relief.mask.T.copy(), relief.depth)
+
+
+def parted(stroke: Stroke, around: float) -> list[Stroke]:
+    """Part a stroke where it crosses the seam of a panel that goes all the way round.
+
+    Parameters
+    ----------
+    stroke : Stroke
+        X from anywhere.
+    around : float
+        The way round, mm.
+
+    Returns
+    -------
+    list of Stroke
+        X within 0 and `around`; a stroke that crosses nothing stays one.
+    """
+    points, strength = stroke.points, stroke.strength
+    low, high = np.floor(points[:, 0].min() / around), np.floor(points[:, 0].max() / around)
+    if low == high:
+        return [replace(stroke, points=points - (low * around, 0.0))]
+    if stroke.closed:
+        points = np.concatenate([points, points[:1]])
+        strength = np.append(strength, strength[0])
+    at = np.arange(len(points), dtype=float)
+    cuts = [at]
+    for seam in np.arange(low + 1, high + 1) * around:
+        left, right = points[:-1, 0] - seam, points[1:, 0] - seam
+        crossed = np.flatnonzero(left * right < 0)
+        cuts.append(crossed + left[crossed] / (left[crossed] - right[crossed]))
+    every = np.unique(np.concatenate(cuts))
+    x, y = (np.interp(every, at, axis) for axis in points.T)
+    s = np.interp(every, at, strength)
+    turn = np.floor((x[:-1] + x[1:]) / (2 * around))
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(turn)) + 1, [len(turn)]])
+    return [
+        replace(
+            stroke,
+            points=np.column_stack([x[a : b + 1] - turn[a] * around, y[a : b + 1]]),
+            strength=s[a : b + 1],
+            closed=False,
+        )
+        for a, b in pairwise(starts)
+    ]
 
 
 def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:

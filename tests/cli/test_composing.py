@@ -79,3 +79,21 @@ def test_walls_must_agree(folders, tmp_path, capsys):
     given = [f"{folders / 'fine'}@5x5mm", f"{steep}@50x5mm"]
     assert run(["compose", *given, "--size", "95x40mm", "-o", str(tmp_path / "none")]) == 2
     assert "differ in wall_angle" in capsys.readouterr().err
+
+
+def test_a_frieze_goes_round_a_column_through_its_seam(folders, tmp_path, capsys):
+    out = tmp_path / "frieze"
+    coarse = folders / "coarse"
+    places = [f"{coarse}@25x1mm", f"{coarse}@67x1mm"]
+    column = ["--round", "27mm", "--size", "84.82x32mm", "-o", str(out)]
+    assert run(["compose", *places, *column]) == 0
+    relief = read_relief(out / "relief.tiff")
+    assert relief.grid.cols * relief.grid.pitch == pytest.approx(27 * np.pi, abs=1e-7)
+    assert relief.mask[:, 0].any() and relief.mask[:, -1].any()
+    assert run(["panel", str(out)]) == 0
+    solid = trimesh.load_mesh(out / "panel.stl")
+    assert solid.is_volume and solid.euler_number == 2
+    cutters = ["--finish", "ball-2", "--lines", "ball-1"]
+    assert run(["toolpath", str(out), "--machine", "altmill-4x4-rotary", *cutters]) == 0
+    report = json.loads((out / "report.json").read_text())
+    assert report["verification"]["ok"] and report["verification"]["gouge_mm"] <= 0.005
