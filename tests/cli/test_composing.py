@@ -81,7 +81,7 @@ def test_walls_must_agree(folders, tmp_path, capsys):
     assert "differ in wall_angle" in capsys.readouterr().err
 
 
-def test_a_frieze_goes_round_a_column_through_its_seam(folders, tmp_path, capsys):
+def test_a_frieze_goes_round_a_column_through_its_seam(folders, tmp_path):
     out = tmp_path / "frieze"
     coarse = folders / "coarse"
     places = [f"{coarse}@25x1mm", f"{coarse}@67x1mm"]
@@ -93,7 +93,3 @@ def test_a_frieze_goes_round_a_column_through_its_seam(folders, tmp_path, capsys
     assert run(["panel", str(out)]) == 0
     solid = trimesh.load_mesh(out / "panel.stl")
     assert solid.is_volume and solid.euler_number == 2
-    cutters = ["--finish", "ball-2", "--lines", "ball-1"]
-    assert run(["toolpath", str(out), "--machine", "altmill-4x4-rotary", *cutters]) == 0
-    report = json.loads((out / "report.json").read_text())
-    assert report["verification"]["ok"] and report["verification"]["gouge_mm"] <= 0.005
