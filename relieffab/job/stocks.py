@@ -80,22 +80,13 @@ def stock_of(job: Job) -> Stock:
 
 
 def milled_of(job: Job) -> Stock:
-    """Return the stock as it lies on the machine: a round one along X, its face laid out flat.
-
-    Raises
-    ------
-    InputError
-        If it is a curved board, of which no programs are made.
-    """
+    """Return the stock as it lies on the machine: a round one along X, its face laid out flat."""
     bent, flat = round_of(job), stock_of(job)
     if bent is None:
         return flat
     if isinstance(bent, Curved):
-        raise InputError(
-            "programs for a curved board are not made",
-            where="curved",
-            hint="relieffab relief, then relieffab panel, for the solid",
-        )
+        board = (bent.breadth, bent.height, bent.thickness)
+        return Stock.zeroed(board, job.work_zero, job.work_zero_z, curve=bent.radius)
     size = (flat.height, flat.width, flat.thickness)
     radius = bent.diameter / 2
     return Stock.zeroed(size, job.work_zero, job.work_zero_z, radius=radius)

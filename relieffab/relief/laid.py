@@ -1,7 +1,8 @@
-"""A relief as it lies on a machine that turns it: its Y along X, its X round the axis.
+"""A relief as it lies on the machine: turned under it, or on a curved board from above.
 
-Rows and columns change places, which keeps every triangle what it is; seen from outside
-that is a mirror image, and `Stock.to_work` mirrors it back.
+On a machine that turns it, its Y lies along X, its X round the axis.  Rows and columns
+change places, which keeps every triangle what it is; seen from outside that is a mirror
+image, and `Stock.to_work` mirrors it back.
 """
 
 from collections.abc import Sequence
@@ -12,26 +13,29 @@ import numpy as np
 
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
+from relieffab.relief.above import bent_points, seen_from_above
 from relieffab.relief.model import Relief
 from relieffab.relief.style.model import Marks
 from relieffab.stock import Stock
 
 
 def laid(relief: Relief, stock: Stock) -> Relief:
-    """Lay a relief on a round stock; on a flat one it stays as it is.
+    """Lay a relief on a round stock or a curved board; on a flat one it stays as it is.
 
     Parameters
     ----------
     relief : Relief
         On the flat panel.
     stock : Stock
-        As wide as the panel is high, and as high as that is wide.
+        A round one is as wide as the panel is high, and as high as that is wide.
     """
+    if stock.curve:
+        return seen_from_above(relief, stock)
     return _swapped(relief, stock.width, stock.height) if stock.radius else relief
 
 
 def upright(relief: Relief, stock: Stock) -> Relief:
-    """Undo `laid`."""
+    """Turn what lies on a round stock back; on others, all is seen from above already."""
     return _swapped(relief, stock.height, stock.width) if stock.radius else relief
 
 
@@ -86,8 +90,10 @@ def parted(stroke: Stroke, around: float) -> list[Stroke]:
     ]
 
 
-def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:
-    """Lay strokes on a stock as `laid` lays their relief."""
+def laid_strokes(strokes: Sequence[Stroke], relief: Relief, stock: Stock) -> Sequence[Stroke]:
+    """Lay strokes on a stock as `laid` lays the relief they are drawn on."""
+    if stock.curve:
+        return [replace(s, points=bent_points(s.points, relief, stock)) for s in strokes]
     if not stock.radius:
         return strokes
     corner = (stock.width, stock.height)
@@ -96,6 +102,9 @@ def laid_strokes(strokes: Sequence[Stroke], stock: Stock) -> Sequence[Stroke]:
 
 def laid_marks(marks: Marks, stock: Stock) -> Marks:
     """Lay marks on a stock as `laid` lays the relief that bears them."""
+    if stock.curve:
+        bent = tuple(bent_points(line, marks.smooth, stock) for line in marks.lines)
+        return replace(marks, smooth=laid(marks.smooth, stock), lines=bent)
     if not stock.radius:
         return marks
     corner = (stock.width, stock.height)

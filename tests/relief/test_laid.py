@@ -37,11 +37,11 @@ def test_on_a_flat_stock_nothing_happens(relief):
     flat = Stock(10.0, 20.0, 5.0)
     assert laid(relief, flat) is relief and upright(relief, flat) is relief
     strokes = [Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))]
-    assert laid_strokes(strokes, flat) is strokes
+    assert laid_strokes(strokes, relief, flat) is strokes
 
 
 def test_strokes_go_where_their_relief_goes():
-    (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], STOCK)
+    (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], None, STOCK)
     np.testing.assert_array_equal(found.points, [[8.0, 19.0]])
 
 
