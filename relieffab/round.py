@@ -8,6 +8,8 @@ from relieffab.errors import InputError
 from relieffab.grid import Grid
 
 ROUNDING = 1e-6
+MEANT = 0.01
+"""mm that a panel's width may be off the way round that it is meant to be."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +141,11 @@ class Curved:
         return Bend(self.radius, self.width / 2)
 
     @property
+    def breadth(self) -> float:
+        """How wide the board itself is, mm."""
+        return 2 * self.radius * sin(self.width / self.radius / 2)
+
+    @property
     def sagitta(self) -> float:
         """How far the face falls from its middle to its sides, mm."""
         return 2 * self.radius * sin(self.width / self.radius / 4) ** 2
@@ -152,6 +159,18 @@ class Curved:
     def all_round(self) -> bool:
         """Whether the panel's left and right edge meet: never."""
         return False
+
+
+def meant_width(width: float, diameter: float) -> float:
+    """Take a width that a person rounded for the way round.
+
+    Examples
+    --------
+    >>> meant_width(251.33, 80) == pi * 80, meant_width(251.3, 80)
+    (True, 251.3)
+    """
+    around = pi * diameter
+    return around if abs(width - around) < MEANT else width
 
 
 def check_depth(stock: Round | Curved, depth: float) -> None:

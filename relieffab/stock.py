@@ -39,6 +39,8 @@ class Stock:
         Of the face of a round stock, laid out flat here with its axis along X, mm;
         Z is square to the face.  Programs mirror its Y, see `relieffab.relief.laid`.  0 for a
         flat one.
+    curve : float
+        Radius of a face that is curved along X, its middle at Z0, mm; 0 for a level one.
 
     Raises
     ------
@@ -57,6 +59,7 @@ class Stock:
     keyholes: tuple[Keyhole, ...] = ()
     turned: bool = False
     radius: float = 0.0
+    curve: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("width", "height", "thickness"):
@@ -108,6 +111,18 @@ class Stock:
     def all_round(self) -> bool:
         """Whether it is a round one whose near and far edge are the same."""
         return self.radius > 0 and self.height > 2 * np.pi * self.radius - 1e-6
+
+    def face(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Z of the face at X, mm; beyond the sides as at them."""
+        x = np.asarray(x, float)
+        if not self.curve:
+            return np.zeros_like(x)
+        aside = np.clip(x, 0.0, self.width) - self.width / 2
+        return np.sqrt(self.curve**2 - aside**2) - self.curve
+
+    def lowest(self, depth: float) -> float:
+        """Say how far under Z0 a relief of that depth may reach, mm."""
+        return depth - float(self.face(0.0))
 
     @property
     def plain(self) -> bool:

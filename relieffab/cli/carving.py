@@ -20,24 +20,25 @@ def intentions(job: "Job", plan: "Plan") -> Iterator[str]:
         yield "home     the machine runs to its switches first"
     for note in plan.notes:
         yield f"note: {note}"
-    ranges = "  ".join(
+    ranges = [
         f"{name} {low:.3f}..{high:.3f}"
-        for name, low, high in zip("XYZ", *program.bounds, strict=True)
+        for name, low, high in zip("XYZA", *program.bounds, strict=False)
         if low is not None and high is not None
-    )
+    ]
     if job.check:
         yield f"check    {len(program):,} lines are read, nothing moves"
         return
     yield f"program  {len(program):,} lines, {program.cut_mm:,.0f} mm to cut" + (
-        f", {ranges} mm" if ranges else ""
+        f", {'  '.join(ranges)} mm" + " and degrees" * ("A" in program.codes) if ranges else ""
     )
     left = plan.table.total - plan.table.at(plan.first)
     yield f"time     about {clock(left)}"
     if plan.entry is not None:
-        x, y, z = plan.entry.position
+        x, y, z, *turn = plan.entry.position
+        places = [("X", x), ("Y", y), *(("A", angle) for angle in turn)]
+        where = " ".join(f"{name}{value:g}" for name, value in places if value is not None)
         yield (
-            f"resume   at line {plan.number}: up to Z{plan.entry.height:g}, "
-            f"across to X{x:g} Y{y:g}, "
+            f"resume   at line {plan.number}: up to Z{plan.entry.height:g}, across to {where}, "
             f"spindle on, slowly down to Z{z:g}"
         )
 

@@ -94,9 +94,10 @@ def probe_program(setup: Setup, plate: float) -> str:
     )
     here = post.number(int(np.rint((plate - stock.work_zero[2]) * post.per_mm)))
     touch, store = post.dialect.probe
+    face = "the stock's face" + (", at its highest" if stock.curve else "")
     rise = f" F{post.feed(10 * FAST)}" if post.dialect.rapid_feed else ""
     lines = [
-        *_head(setup, f"sets Z by a touch plate of {plate:g} mm on the stock's face, spindle off"),
+        *_head(setup, f"sets Z by a touch plate of {plate:g} mm on {face}, spindle off"),
         *_modes(setup),
         "M5",
         "G91",

@@ -46,6 +46,8 @@ def _facts(paths: Sequence[Toolpath], program: Program, setup: Setup) -> dict[st
     seconds = estimate(program, machine)
     low, high = program.bounds
     size = f"{stock.width:g} x {stock.height:g} x {stock.thickness:g} mm"
+    if stock.curve:
+        size += f", its face curved along X with a radius of {stock.curve:g} mm"
     return facts | {
         **_position(setup),
         "machine": machine_words(setup),
@@ -66,9 +68,11 @@ def machine_words(setup: Setup) -> str:
 
 def zero_words(setup: Setup) -> str:
     """Say where work zero is."""
-    x, y, z = setup.stock.work_zero
-    corner = "the figure's top right" if setup.stock.radius else "the near left corner"
-    return f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from the face"
+    stock = setup.stock
+    x, y, z = stock.work_zero
+    corner = "the figure's top right" if stock.radius else "the near left corner"
+    level = "the face's middle, its highest" if stock.curve else "the face"
+    return f"X {x:g} Y {y:g} mm from {corner}, Z {z:g} mm from {level}"
 
 
 def turning_words(setup: Setup) -> str:

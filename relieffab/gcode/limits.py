@@ -84,7 +84,7 @@ class Limits:
         bounds = {
             f"below the relief's depth of {self.depth:g} mm": self.depth,
             f"below the cutter's flutes of {self.cutter.flute_length:g} mm": (
-                self.cutter.flute_length
+                self.stock.lowest(self.cutter.flute_length)
             ),
             f"through the stock of {self.stock.thickness:g} mm": self.stock.thickness,
         }

@@ -21,7 +21,7 @@ class Setup:
     material : Material
     stock : Stock
     depth : float
-        Of the relief, positive, mm: no program goes below it.
+        Of the relief under Z0, positive, mm: no program goes below it.
     units : {'mm', 'in'}
         Of the programs.
     position : Position, optional

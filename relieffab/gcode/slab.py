@@ -47,7 +47,8 @@ class Slab:
     @classmethod
     def over(cls, grid: Grid, stock: Stock) -> "Slab":
         """Take an untouched stock on a lattice."""
-        return cls(grid, np.zeros(grid.node_shape, np.float32), stock.radius)
+        face = stock.face(grid.node_axes()[0]).astype(np.float32)
+        return cls(grid, np.tile(face, (grid.rows + 1, 1)), stock.radius)
 
     def copy(self) -> "Slab":
         """Return a slab of its own that is cut as far."""

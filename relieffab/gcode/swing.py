@@ -22,7 +22,7 @@ from relieffab.gcode.sweep import BAND_ROWS, Shape, columns, profile_height, pro
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-HALVINGS, STEPS = 20, 40
+HALVINGS, STEPS = 14, 40  # a cutter's width in steps of its 16,000th
 CLOSE = 1e-7  # mm
 
 
@@ -144,6 +144,9 @@ def _lower_row(row, x_start, pitch, ray, move, least, shape, form):  # type: ign
     radius, p = ray
     gone_x, gone_p, base, gone_z = move
     bottom = min(base, base + gone_z)
+    # Beside the cutter's plane a ray leans away from it: it is met no lower than this makes it.
+    aside = 0.0 if p * (p - gone_p) <= 0.0 else min(abs(p), abs(p - gone_p))
+    upright = cos(aside)
     # With the turning at its narrowest, points seem nearer to the way than they are.
     away = max(abs(p), abs(p - gone_p))
     narrow = least * (1.0 - away * away / 6.0)
@@ -159,7 +162,7 @@ def _lower_row(row, x_start, pitch, ray, move, least, shape, form):  # type: ign
         near2 = nx * nx + ny * ny
         if near2 > shape[5] * shape[5]:
             continue
-        c, under = radius + row[j], bottom + profile_height(near2, shape, form)
+        c, under = radius + row[j], (bottom + profile_height(near2, shape, form)) / upright
         if c <= under:
             continue
         met, top = lowered(c, under, (dx, gone_x, p, gone_p, base, gone_z), shape, form)

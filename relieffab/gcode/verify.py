@@ -146,7 +146,7 @@ def verify(
     ]
     carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
     coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)
-    deviation = carved.heights - _wanted(carved.grid, relief)
+    deviation = carved.heights - _wanted(carved.grid, relief, setup.stock)
     figure = figure_nodes(relief, carved.grid)
     inside = deviation[figure]
     gouge, x, y = deepest_gouge(relief, carved.grid, carved.heights, deviation)
@@ -241,12 +241,19 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     return nodes
 
 
-def _wanted(grid: Grid, relief: Relief) -> Singles:
-    """Give the relief's height at the lattice's nodes, a few rows at a time, mm."""
+def _wanted(grid: Grid, relief: Relief, stock: Stock) -> Singles:
+    """Give the relief's height at the lattice's nodes, a few rows at a time, mm.
+
+    Beyond the relief the stock's face goes on.
+    """
     x, y = grid.node_axes()
+    face = stock.face(x)
     bands = np.array_split(y, max(1, len(y) // 32))
     return np.concatenate(
-        [relief.height_at(x[None, :], band[:, None]).astype(np.float32) for band in bands]
+        [
+            np.minimum(relief.height_at(x[None, :], band[:, None]), face).astype(np.float32)
+            for band in bands
+        ]
     )
 
 

@@ -4,7 +4,7 @@ from relieffab.errors import InputError
 from relieffab.grbl.program import Program, top
 
 TRACE_FEED = 1000.0
-"""mm/min: slow enough to watch."""
+"""mm or degrees a minute: slow enough to watch."""
 HIGHEST_TOUCH = 25.0
 """mm the probe goes down at most before it gives up (ALARM:5)."""
 FIRST_TOUCH, SECOND_TOUCH = 100.0, 20.0
@@ -22,7 +22,10 @@ def outline(program: Program) -> str:
     InputError
         If the bounds are not known, or no height is that the program itself moves at.
     """
-    (x0, y0, _), (x1, y1, _) = program.bounds
+    (x0, y0, _, *a0), (x1, y1, _, *a1) = program.bounds
+    second = "Y"
+    if a0 and y0 is None:
+        second, y0, y1 = "A", a0[0], a1[0]
     height = top(program)
     if x0 is None or y0 is None or x1 is None or y1 is None or not program.bounds_certain:
         raise InputError(
@@ -36,8 +39,9 @@ def outline(program: Program) -> str:
             found=f"{height:g} mm at most",
         )
     corners = [(x1, y0), (x1, y1), (x0, y1), (x0, y0)]
-    lines = ["G17G21G90G94M5M9", f"G0Z{height:.3f}", f"G0X{x0:.3f}Y{y0:.3f}", f"F{TRACE_FEED:g}"]
-    return "\n".join([*lines, *(f"G1X{x:.3f}Y{y:.3f}" for x, y in corners)])
+    places = [f"X{x:.3f}{second}{y:.3f}" for x, y in [corners[-1], *corners]]
+    lines = ["G17G21G90G94M5M9", f"G0Z{height:.3f}", f"G0{places[0]}", f"F{TRACE_FEED:g}"]
+    return "\n".join([*lines, *(f"G1{place}" for place in places[1:])])
 
 
 def touch(thickness: float) -> str:

@@ -22,8 +22,8 @@ class SendReport:
         Length of G1, G2 and G3 moves, mm.
     seconds : float
         From the first line to the machine's rest, on the machine's clock.
-    position : tuple of 3 float or None
-        Where the machine stands, machine coordinates, mm.
+    position : tuple of float or None
+        Where the machine stands, machine coordinates, mm, A in degrees.
     firmware : str
         Version of Grbl.
     notes : tuple of str

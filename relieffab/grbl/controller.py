@@ -5,7 +5,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from relieffab.grbl.lines import LONGEST_LINE
-from relieffab.grbl.messages import Note, Point, Setting
+from relieffab.grbl.messages import AXES, Note, Point, Setting, scaled
 from relieffab.grbl.modal import MM_PER_INCH
 from relieffab.grbl.pace import Limits
 
@@ -69,8 +69,8 @@ class Controller:
             self.modal = message.text
         elif message.tag in _OFFSETS:
             values = _NUMBERS.findall(message.text)
-            if len(values) == 3:
-                self.offsets[message.tag] = (float(values[0]), float(values[1]), float(values[2]))
+            if len(values) >= 3:
+                self.offsets[message.tag] = tuple(float(value) for value in values[:AXES])
             elif message.tag == "TLO" and len(values) == 1:
                 self.offsets["TLO"] = (0.0, 0.0, float(values[0]))
 
@@ -83,13 +83,21 @@ class Controller:
             self.buffer = size if reported else min(self.buffer, size)
 
     @property
+    def axes(self) -> int:
+        """How many axes it has, as its offsets tell: three, or four with A."""
+        return max((len(offset) for offset in self.offsets.values()), default=3)
+
+    @property
     def travel(self) -> Point | None:
-        """Travel of X, Y, Z, mm ($130-$132); None where not reported."""
+        """Travel of X, Y, Z, mm ($130-$132), and of A, 0 where it turns on and on.
+
+        None where not reported.
+        """
         return self._axes(130)
 
     @property
     def room(self) -> tuple[Point, Point] | None:
-        """Lowest and highest machine coordinates, mm.
+        """Lowest and highest machine coordinates, mm, A in degrees.
 
         Grbl homes to the upper end and counts downwards; built to set its origin where it
         homes (option Z), axes that home to the lower end ($23) count upwards.
@@ -98,9 +106,9 @@ class Controller:
         if travel is None:
             return None
         mask = int(self.settings.get(23, 0)) if "Z" in self.options else 0
-        low = [0.0 if mask >> axis & 1 else -travel[axis] for axis in range(3)]
-        high = [travel[axis] if mask >> axis & 1 else 0.0 for axis in range(3)]
-        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+        low = (0.0 if mask >> axis & 1 else -most for axis, most in enumerate(travel))
+        high = (most if mask >> axis & 1 else 0.0 for axis, most in enumerate(travel))
+        return tuple(low), tuple(high)
 
     @property
     def soft_limits(self) -> bool:
@@ -140,17 +148,17 @@ class Controller:
 
     @property
     def work_zero(self) -> Point:
-        """Where work zero lies in machine coordinates, mm."""
-        scale = MM_PER_INCH if self.inches else 1.0
-        parts = [self.offsets.get(key, (0.0, 0.0, 0.0)) for key in (self.system, "G92", "TLO")]
-        x, y, z = (scale * sum(part[axis] for part in parts) for axis in range(3))
-        return x, y, z
+        """Where work zero lies in machine coordinates, mm, A in degrees."""
+        parts = (self.offsets.get(key, ()) for key in (self.system, "G92", "TLO"))
+        padded = ((*part, *[0.0] * (self.axes - len(part))) for part in parts)
+        zero = tuple(sum(values) for values in zip(*padded, strict=True))
+        return scaled(zero, MM_PER_INCH if self.inches else 1.0)
 
     @property
     def resolution(self) -> float:
-        """Longest step of an axis, mm ($100-$102); 0 where not reported."""
+        """Longest step of an axis, mm or degrees ($100-$103); 0 where not reported."""
         steps = self._axes(100)
-        return 1.0 / min(steps) if steps else 0.0
+        return 1.0 / min(step for step in steps if step) if steps else 0.0
 
     @property
     def limits(self) -> Limits:
@@ -165,5 +173,5 @@ class Controller:
         )
 
     def _axes(self, first: int) -> Point | None:
-        x, y, z = (self.settings.get(first + axis) for axis in range(3))
-        return None if not (x and y and z) else (x, y, z)
+        values = tuple(self.settings.get(first + axis, 0.0) for axis in range(self.axes))
+        return values if all(values[:3]) else None

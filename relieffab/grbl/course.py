@@ -40,10 +40,10 @@ class Course:
     ----------
     blocks : int
         Moves the planner holds.
-    offset : tuple of 3 float
-        Work zero in machine coordinates, mm; status reports update it.
+    offset : tuple of float
+        Work zero in machine coordinates, mm, A in degrees; status reports update it.
     resolution : float
-        Longest step of an axis, mm.
+        Longest step of an axis, mm or degrees.
 
     Attributes
     ----------
@@ -129,17 +129,13 @@ class Course:
             self._heard = status.offset
         if status.work is not None:
             return status.work
-        if status.machine is None:
-            return None
-        (x, y, z), (ox, oy, oz) = status.machine, self._offset
-        return x - ox, y - oy, z - oz
+        return moved(status.machine, self._offset, -1)
 
     def machine_position(self, status: Status) -> Point | None:
         """Give the reported position in machine coordinates, mm."""
         if status.machine is not None or status.work is None:
             return status.machine
-        (x, y, z), (ox, oy, oz) = status.work, self._offset
-        return x + ox, y + oy, z + oz
+        return moved(status.work, self._offset, 1)
 
     def report(self, status: Status) -> None:
         """Find the machine on the program.
@@ -182,6 +178,13 @@ class Course:
             return
         following = self._stretches[0] if self._stretches else stretch
         self._see(following, 0.0)
+
+
+def moved(point: Point | None, offset: Point, sign: int) -> Point | None:
+    """Add an offset, or take it away; None where the point is, or has other axes."""
+    if point is None or len(point) != len(offset):
+        return None
+    return tuple(value + sign * shift for value, shift in zip(point, offset, strict=True))
 
 
 def _nearest(motion: Motion, point: Point) -> tuple[float, float]:

@@ -31,7 +31,7 @@ class Feed:
         self.total = len(program)
         self.cut_mm = 0.0
         self._source = program.read()
-        self.tracker = Tracker()
+        self.tracker = Tracker(position)
         self.next: Line | None = next(self._source, None)
         while self.next is not None and self.next.index < first:
             _, motion = self.take()

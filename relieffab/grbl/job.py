@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 from relieffab.grbl.controller import Controller
+from relieffab.grbl.course import moved
 from relieffab.grbl.messages import Point, Status
 from relieffab.grbl.pace import Timetable
 from relieffab.grbl.program import Program, commands
 from relieffab.grbl.record import Record
 from relieffab.grbl.resume import Entry, entry, zero_lost
-from relieffab.grbl.review import review
+from relieffab.grbl.review import review, still_over_axis
 from relieffab.grbl.stage import Failure, Fault
 
 _EXPECTED = ("G0", "G17", "G21", "G90", "G94")
@@ -80,8 +81,8 @@ class Plan:
         What the person should know.
     entry : Entry or None
         Where a job is taken up again.
-    position : tuple of 3 float or None
-        Where the tool stands, work coordinates, mm.
+    position : tuple of float or None
+        Where the tool stands, work coordinates, mm, A in degrees.
     """
 
     setup: tuple[Program, ...]
@@ -103,6 +104,12 @@ def plan(job: Job, controller: Controller, status: Status) -> Plan | Failure:
             "the program and the machine do not fit",
             found="; ".join(found.refusals),
             hint="move work zero, turn the job, or change what is named",
+        )
+    if job.home and still_over_axis(job.program):
+        return Failure(
+            Fault.MISFIT,
+            "homing would take Y away from the axis, and the program never moves it back",
+            hint="home first, bring the cutter over the axis, then send without --home",
         )
     if job.check and controller.zero_forgotten:
         return Failure(
@@ -157,11 +164,7 @@ def _entry(program: Program, resume: Resume, table: Timetable) -> Entry:
 
 def _places(controller: Controller, status: Status) -> tuple[Point | None, Point | None]:
     """Position in work and in machine coordinates, mm."""
-    (ox, oy, oz) = status.offset or controller.work_zero
+    zero = status.offset or controller.work_zero
     if status.work is not None:
-        x, y, z = status.work
-        return status.work, (x + ox, y + oy, z + oz)
-    if status.machine is not None:
-        x, y, z = status.machine
-        return (x - ox, y - oy, z - oz), status.machine
-    return None, None
+        return status.work, moved(status.work, zero, 1)
+    return moved(status.machine, zero, -1), status.machine

@@ -10,8 +10,11 @@ from dataclasses import dataclass, replace
 
 from relieffab.grbl.modal import MM_PER_INCH
 
-Point = tuple[float, float, float]
+Point = tuple[float, ...]
+"""X, Y, Z in mm and, of a machine that has one, A in degrees."""
 
+AXES = 4
+"""That a machine may have here: X, Y, Z, and A about X."""
 LONGEST_LINE = 4096
 """Bytes without a line end beyond which the input is noise, not a line."""
 
@@ -65,8 +68,8 @@ class Status:
     substate : int or None
         Behind the colon: Hold:0 has stopped, Hold:1 is still slowing down; Door:0 is closed and
         waits, 1 is open, 2 is still slowing down, 3 starts again.
-    machine, work, offset : tuple of 3 float or None
-        MPos, WPos and WCO, mm.
+    machine, work, offset : tuple of float or None
+        MPos, WPos and WCO, mm; A in degrees.
     blocks_free, bytes_free : int or None
         Room in the planner and in the receive buffer.
     feed, speed : float or None
@@ -203,24 +206,30 @@ def _status(line: str) -> Message:
         return Other(line)
 
 
-def _numbers(text: str, count: int) -> tuple[float, ...]:
+def _numbers(text: str, least: int, most: int = 0) -> tuple[float, ...]:
     parts = text.split(",")
-    if len(parts) < count or not all(_PLAIN_NUMBER.fullmatch(part) for part in parts):
+    if len(parts) < least or not all(_PLAIN_NUMBER.fullmatch(part) for part in parts):
         raise ValueError(text)
-    return tuple(float(part) for part in parts[:count])
+    return tuple(float(part) for part in parts[: most or least])
 
 
 def _point(text: str | None) -> Point | None:
     if text is None:
         return None
-    x, y, z = _numbers(text, 3)
-    return x, y, z
+    x, y, z, *turn = _numbers(text, 3, AXES)
+    return x, y, z, *turn
 
 
 def _scaled(point: Point | None) -> Point | None:
     if point is None:
         return None
-    return point[0] * MM_PER_INCH, point[1] * MM_PER_INCH, point[2] * MM_PER_INCH
+    return scaled(point, MM_PER_INCH)
+
+
+def scaled(point: Point, scale: float) -> Point:
+    """Scale lengths; degrees stay as they are."""
+    x, y, z, *turn = point
+    return x * scale, y * scale, z * scale, *turn
 
 
 def damaged(text: str) -> bool:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from relieffab.grbl.messages import AXES
 from relieffab.grbl.program import PIECE, Program
 
 Floats = NDArray[np.float64]
@@ -22,16 +23,16 @@ OVERLAP = 512
 """Pieces of the next block that the backward pass looks at."""
 BELIEF = 30.0
 """Seconds that the model's own word weighs against the clock's."""
-_RECORD = np.dtype([("line", "<u4"), ("d", "<f4", 3), ("feed", "<f4")])
+_RECORD = np.dtype([("line", "<u4"), ("d", "<f4", AXES), ("feed", "<f4")])
 _STRAIGHT = 0.999999
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What the machine can do: mm/min, mm/s², mm, moves, lines a second."""
+    """What the machine can do: mm/min, mm/s², mm, moves, lines a second; degrees for mm of A."""
 
-    max_rate: tuple[float, float, float] = (1000.0, 1000.0, 1000.0)
-    acceleration: tuple[float, float, float] = (100.0, 100.0, 100.0)
+    max_rate: tuple[float, ...] = (1000.0, 1000.0, 1000.0)
+    acceleration: tuple[float, ...] = (100.0, 100.0, 100.0)
     junction: float = 0.01
     blocks: int = 15
     line_rate: float = 450.0
@@ -138,7 +139,7 @@ def _block_seconds(
 ) -> tuple[Floats, float]:
     """Seconds of every piece of a block, and the squared speed at its end."""
     pieces = np.concatenate([block, ahead[:OVERLAP]])
-    d = pieces["d"].astype(float)
+    d = pieces["d"][:, : len(limits.max_rate)].astype(float)
     mm = np.sqrt((d**2).sum(axis=1))
     moves = np.flatnonzero(mm > 0)
     feed = pieces["feed"].astype(float)

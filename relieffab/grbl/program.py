@@ -15,6 +15,7 @@ from typing import IO
 
 from relieffab.errors import InputError
 from relieffab.grbl import lines
+from relieffab.grbl.messages import AXES
 from relieffab.grbl.tracker import Tracker
 from relieffab.grbl.way import Motion
 
@@ -22,12 +23,15 @@ IN_MEMORY = 1 << 22
 """Bytes up to which a program needs no file."""
 BLOCK = 1 << 13
 """Bytes, or pieces, read at once."""
-PIECE = struct.Struct("<Lffff")
-"""One straight piece of the way: index of its line, dx, dy, dz (mm), mm/min (inf: rapid).
+PIECE = struct.Struct("<Lfffff")
+"""One straight piece of the way: index of its line, dx, dy, dz (mm), da (degrees), mm/min.
+
+Rapids have a feed of inf.
 
 Where the feed is negative the machine rests for as many seconds.
 """
 
+_NOWHERE = (0.0,) * AXES
 _LINE_END = re.compile(r"\r\n|\r|\n")  # str.splitlines also splits at characters of comments
 
 Bounds = tuple[tuple[float | None, ...], tuple[float | None, ...]]
@@ -68,11 +72,12 @@ class Program:
     Attributes
     ----------
     cut_mm : float
-        Length of G1, G2 and G3 moves, mm.
+        Length of G1, G2 and G3 moves, mm; a degree of A counts as one, as controllers have it.
     dwell_s : float
         Seconds of all G4.
     bounds : tuple
-        Lowest and highest named X, Y, Z in work coordinates, mm; None where never named.
+        Lowest and highest named X, Y, Z in work coordinates, mm, and A, degrees, if there is
+        one; None where never named.
     bounds_certain : bool
         False where the program uses codes that the bounds do not follow.
     pauses : list of int
@@ -146,7 +151,7 @@ class Program:
         self._hash.update(wire)
         if seconds := lines.dwell_seconds(line):
             self.dwell_s += seconds
-            self._pieces.write(PIECE.pack(self._count, 0.0, 0.0, 0.0, -seconds))
+            self._pieces.write(PIECE.pack(self._count, *_NOWHERE, -seconds))
         if motion is not None:
             self._put(motion)
             if motion.cutting:
@@ -156,10 +161,10 @@ class Program:
     def _put(self, motion: Motion) -> None:
         start = motion.start
         for point in motion.points:
-            dx, dy, dz = (
+            step = [
                 0.0 if p is None or q is None else q - p for p, q in zip(start, point, strict=True)
-            )
-            self._pieces.write(PIECE.pack(self._count, dx, dy, dz, motion.feed))
+            ]
+            self._pieces.write(PIECE.pack(self._count, *step, *_NOWHERE[len(step) :], motion.feed))
             start = point
 
 

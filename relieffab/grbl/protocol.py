@@ -26,6 +26,7 @@ from relieffab.grbl.stage import Failure, Fault, Patience
 from relieffab.grbl.stop import SafeStop
 from relieffab.grbl.streaming import Streaming
 from relieffab.grbl.view import View
+from relieffab.grbl.way import Place
 
 _CLOSING = ("M5", "M9")
 
@@ -119,7 +120,7 @@ class Session:
             self._queue.append(commands(*_CLOSING))
         self._pace = Pace(self.plan.table, self.plan.first)
         # followed up to its first line before the spindle turns: that may take seconds
-        self._feed = Feed(self._job.program, (None, None, None), self.plan.first)
+        self._feed = Feed(self._job.program, self._nowhere, self.plan.first)
         self._begin(now)
         self.command(NORMAL)
 
@@ -296,7 +297,7 @@ class Session:
             height = math.inf if position is None else position[2]
             part = commands(*approach(part, height))
         main = part is self._job.program
-        start = position or (None, None, None)
+        start = position or self._nowhere
         feed = self._feed if main and self._feed else Feed(part, start)
         feed.start_at(start)
         self._stage = Streaming(
@@ -306,6 +307,10 @@ class Session:
         if main:
             course.begin(feed.cut_mm)
             self._main, self._course = self._stage, course
+
+    @property
+    def _nowhere(self) -> Place:
+        return (None,) * (self.controller.axes if self.controller else 3)
 
     def _stop(self, failure: Failure, now: float) -> None:
         if not failure.where and self.reached is not None:

@@ -22,10 +22,10 @@ class Record:
         SHA-256 of the clean lines (`Program.digest`).
     line : int
         Line of the source to go on from: the first not known to be wholly cut.
-    position : tuple of 3 float or None
-        Machine coordinates at which the machine was last seen, mm.
-    work_zero : tuple of 3 float
-        Where work zero lay, machine coordinates, mm.
+    position : tuple of float or None
+        Machine coordinates at which the machine was last seen, mm, A in degrees.
+    work_zero : tuple of float
+        Where work zero lay, machine coordinates, mm, A in degrees.
     position_kept : bool
         True where the machine was seen to stop without losing its position.
     reason : str
@@ -73,5 +73,5 @@ def from_dict(data: Mapping[str, Any]) -> Record:
 
 
 def _point(values: Any) -> Point:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
+    x, y, z, *turn = (float(value) for value in values)
+    return x, y, z, *turn

@@ -46,21 +46,31 @@ def review(program: Program, controller: Controller) -> Review:
         refusals.append(f"the firmware is Grbl {controller.version or '?'}, not 1.1")
     if controller.settings.get(32, 0):
         refusals.append("laser mode is on ($32=1), which stops the spindle whenever no cut is made")
-    if not controller.hal:
-        refusals += _unknown(program, controller)
+    refusals += _unknown(program, controller)
     found = misfits(program, controller)
     cleared = controller.cleared_by(program.codes)
     certain = program.bounds_certain and controller.soft_limits and not cleared
     (refusals if certain else notes).extend(found)
     notes += _spindle(program, controller)
+    if still_over_axis(program):
+        notes.append("the program never moves Y: the cutter has to stand right over the axis")
     if controller.homing and not any(controller.work_zero):
         notes.append("work zero is the machine's own zero: was it set?")
     return Review(tuple(refusals), tuple(notes))
 
 
+def still_over_axis(program: Program) -> bool:
+    """Say whether the work turns under a Y that the program leaves where it is."""
+    return "A" in program.codes and program.bounds[0][1] is None
+
+
 def _unknown(program: Program, controller: Controller) -> list[str]:
     """Find what would be refused in the middle of the job."""
     known = KNOWN | ({"M7"} if "M" in controller.options else set())
+    if controller.axes > len("XYZ"):
+        known |= {"A"}
+    if controller.hal:
+        known |= program.codes.keys() - {"A"}
     return [
         f"line {number}: {code} is error:20, {error_meaning(20)}"
         for code, number in program.codes.items()
@@ -80,19 +90,18 @@ def misfits(program: Program, controller: Controller) -> list[str]:
     travel, room = controller.travel, controller.room
     if travel is None or room is None:
         return found
-    for axis in range(3):
-        low, high = program.bounds[0][axis], program.bounds[1][axis]
-        if low is None or high is None:
+    spans = zip("XYZA", *program.bounds, controller.work_zero, travel, *room, strict=False)
+    for name, low, high, zero, whole, least, most in spans:
+        if low is None or high is None or not whole:
             continue
-        name, zero = "XYZ"[axis], controller.work_zero[axis]
-        least, most = room[0][axis], room[1][axis]
-        if high - low > travel[axis] + ROUNDING:
-            found.append(f"{name} spans {high - low:.3f} mm of {travel[axis]:.3f} mm of travel")
+        unit = "degrees" if name == "A" else "mm"
+        if high - low > whole + ROUNDING:
+            found.append(f"{name} spans {high - low:.3f} {unit} of {whole:.3f} {unit} of travel")
         elif (controller.homing or controller.soft_limits) and not (
             least - ROUNDING <= low + zero and high + zero <= most + ROUNDING
         ):
             found.append(
-                f"{name} goes from {low + zero:.3f} to {high + zero:.3f} mm in machine "
+                f"{name} goes from {low + zero:.3f} to {high + zero:.3f} {unit} in machine "
                 f"coordinates, the machine from {least:.3f} to {most:.3f}"
             )
     return found

@@ -12,11 +12,13 @@ import re
 from dataclasses import replace
 from typing import Any
 
+from relieffab.grbl.messages import AXES
 from relieffab.grbl.modal import Modal
 from relieffab.grbl.way import Motion, Place, arc, length_of
 
 WORD = re.compile(r"([A-Z])([-+]?[\d.]+)")
 _PLAIN = re.compile(r"(?:G([01]))?(?:X([-\d.]+))?(?:Y([-\d.]+))?(?:Z([-\d.]+))?(?:F([\d.]+))?")
+_LENGTHS = 3
 _PLAIN_LETTERS = "LNPT"
 _SHIFT = 92.0
 _PROBING = {38.2, 38.3, 38.4, 38.5}
@@ -36,8 +38,9 @@ class Tracker:
     ----------
     modal : Modal
     position : tuple
-    low, high : list of 3 (float or None)
-        Bounds of the named positions; None on an axis never named.
+    low, high : list of (float or None)
+        Bounds of the named positions; None on an axis never named.  Like the position, they
+        have A once a line names it.
     certain : bool
         False once a line went somewhere unknown, so that the bounds may be wrong.
     followed : bool
@@ -53,8 +56,8 @@ class Tracker:
     def __init__(self, position: Place = (None, None, None)) -> None:
         self.modal = Modal()
         self.position = position
-        self.low: list[float | None] = [None, None, None]
-        self.high: list[float | None] = [None, None, None]
+        self.low: list[float | None] = [None] * len(position)
+        self.high: list[float | None] = [None] * len(position)
         self.certain = self.followed = True
         self.plunge = math.inf
         self.fastest_spindle = 0.0
@@ -70,7 +73,7 @@ class Tracker:
         self._simple = (
             (modal.units, modal.distance, modal.feed_mode) == (21, 90, 94)
             and modal.motion in (0, 1)
-            and None not in (*self.position, *self.low)
+            and None not in (*self.position, *self.low[:3])
         )
         return motion
 
@@ -85,11 +88,12 @@ class Tracker:
         start: Any = self.position
         if x is y is z is None:
             return None
-        a, b, c = start
+        a, b, c, *turn = start
         goal = (
             a if x is None else float(x),
             b if y is None else float(y),
             c if z is None else float(z),
+            *turn,
         )
         self.position = goal
         low: Any = self.low
@@ -134,17 +138,26 @@ class Tracker:
                 self.modal = self.modal.with_m(value)
             elif letter not in _PLAIN_LETTERS:
                 self.codes.add(letter)
+                if letter == "A":
+                    axes[self._turning()] = value
         away = away or (bool(axes) and self.modal.motion in _PROBING)
         self.certain = self.certain and self.followed and not away
         if away or shifts:
             return self._forget(axes)
         return self._move(axes, centre) if axes or centre else None
 
+    def _turning(self) -> int:
+        """Take the rotary axis on; give its place."""
+        if len(self.position) < AXES:
+            self.position = (*self.position, None)
+        if len(self.low) < AXES:
+            self.low, self.high = [*self.low, None], [*self.high, None]
+        return AXES - 1
+
     def _forget(self, axes: dict[int, float]) -> Motion:
         """Go somewhere unknown, on the axes named or on all."""
         start = self.position
-        x, y, z = (None if not axes or a in axes else start[a] for a in range(3))
-        self.position = (x, y, z)
+        self.position = tuple(None if not axes or a in axes else p for a, p in enumerate(start))
         return Motion(start, (self.position,), 0.0, math.inf)
 
     def _move(self, axes: dict[int, float], centre: dict[str, float]) -> Motion:
@@ -155,8 +168,8 @@ class Tracker:
             if base is None:
                 self.certain = False
             else:
-                end[axis] = base + value * modal.scale
-        goal = (end[0], end[1], end[2])
+                end[axis] = base + value * (modal.scale if axis < _LENGTHS else 1.0)
+        goal = tuple(end)
         curved = modal.motion in (2, 3) and None not in start and None not in goal
         points = tuple(arc(modal, start, goal, centre)) if curved else (goal,)
         for point in points:
@@ -169,17 +182,14 @@ class Tracker:
         modal = self.modal
         if modal.motion == 0:
             return math.inf
-        if modal.feed_mode == 93:
-            return modal.feed * length
-        feed = modal.feed * modal.scale
+        feed = modal.feed * (length if modal.feed_mode == 93 else modal.scale)
         if start[2] is not None and end[2] is not None and end[2] < start[2] and feed:
             self.plunge = min(self.plunge, feed)
         return feed
 
     def _enclose(self, point: Place) -> None:
         low, high = self.low, self.high
-        for axis in range(3):
-            value = point[axis]
+        for axis, value in enumerate(point):
             if value is None:
                 continue
             least, most = low[axis], high[axis]

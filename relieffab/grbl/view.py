@@ -19,8 +19,8 @@ class View:
         Length cut, and of the whole program.
     left_s : float or None
         Seconds to the end.
-    position : tuple of 3 float or None
-        Work coordinates, mm.
+    position : tuple of float or None
+        Work coordinates, mm, A in degrees.
     feed, speed : float
         mm/min and rpm, as reported.
     overrides : tuple of 3 int

@@ -11,8 +11,8 @@ SAG = 0.01
 FULL_CIRCLE_BELOW = 5e-7
 """Radians of an arc that ends where it begins, within rounding."""
 
-Place = tuple[float | None, float | None, float | None]
-"""X, Y, Z in work coordinates, mm; None where an axis is not known."""
+Place = tuple[float | None, ...]
+"""X, Y, Z in work coordinates, mm, and A, degrees, if there is one; None where not known."""
 
 _PLANES = {17.0: (0, 1, 2), 18.0: (2, 0, 1), 19.0: (1, 2, 0)}
 
@@ -26,7 +26,7 @@ class Motion(NamedTuple):
     points : tuple of tuple
         Ends of its straight pieces; arcs are cut every degree, large ones more often.
     length : float
-        mm, over the axes that are known.
+        mm, over the axes that are known; a degree counts as one, as controllers have it.
     feed : float
         mm/min; inf for a rapid.
     """
@@ -59,7 +59,7 @@ def arc(modal: Modal, start: Place, end: Place, centre: Mapping[str, float]) -> 
     centre : mapping of str to float
         The words I, J, K or R, in the units of the program.
     """
-    u, v, w = _PLANES[modal.plane]
+    u, v, _ = _PLANES[modal.plane]
     scale = modal.scale
     a, b = [float(x or 0.0) for x in start], [float(x or 0.0) for x in end]
     clockwise = modal.motion == 2
@@ -77,11 +77,10 @@ def arc(modal: Modal, start: Place, end: Place, centre: Mapping[str, float]) -> 
     steps = max(1, math.ceil(abs(sweep) / _step(radius)))
     for step in range(1, steps):
         angle = begin + sweep * step / steps
-        point = [0.0, 0.0, 0.0]
+        point = [p + (q - p) * step / steps for p, q in zip(a, b, strict=True)]
         point[u] = cu + radius * math.cos(angle)
         point[v] = cv + radius * math.sin(angle)
-        point[w] = a[w] + (b[w] - a[w]) * step / steps
-        yield point[0], point[1], point[2]
+        yield tuple(point)
     yield end
 
 

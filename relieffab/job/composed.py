@@ -11,11 +11,12 @@ from relieffab.job.folder import ALL, WALLS, check_folder, finished_together
 from relieffab.job.marked import styles_in
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.settings import Chosen, Job, job_of, resolve
-from relieffab.job.stocks import stock_of
+from relieffab.job.stocks import round_of, stock_of
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
 from relieffab.relief.compose import Placed, compose, laid_out, walls_of
+from relieffab.relief.laid import parted, parted_line
 from relieffab.relief.model import Floats, Relief, nodes_of
 from relieffab.relief.store import read_relief, to_tiff
 from relieffab.relief.style.model import Marks
@@ -58,8 +59,15 @@ class _Part:
             return read_relief(self.folder / WALLS)
         return walls_of(self.smooth, self.wall_angle)
 
-    def strokes(self) -> list[Stroke]:
-        return [replace(s, points=s.points + self.at) for s in read_strokes(self.folder)]
+    def strokes(self, around: float | None) -> list[Stroke]:
+        moved = (replace(s, points=s.points + self.at) for s in read_strokes(self.folder))
+        return [part for s in moved for part in ([s] if around is None else parted(s, around))]
+
+    def lines(self, marks: Marks, around: float | None) -> list[Floats]:
+        moved = (line + self.at for line in marks.lines)
+        return [
+            p for line in moved for p in ([line] if around is None else parted_line(line, around))
+        ]
 
     def told(self) -> Report:
         """Say what report.json holds of it."""
@@ -106,7 +114,8 @@ def make(
     settings : mapping of Chosen
         The panel's: size, thickness, outline, frame, holes.
     places : sequence of (folder, (X, Y))
-        Where the near left corner of each relief's own panel comes, mm.
+        Where the near left corner of each relief's own panel comes, mm; on a panel that goes
+        all the way round, X may be anything.
     folder : Path
         Where the files go: what `panel`, `template` and `toolpath` work on.
     overwrite : bool
@@ -126,12 +135,14 @@ def make(
     job = job_of(settings)
     progress("compose", 0, 1)
     parts = [_Part.read(path, at) for path, at in places]
-    relief, marks = _composed(parts, job.size)
+    bent = round_of(job)
+    around = job.size[0] if bent is not None and bent.all_round else None
+    relief, marks = _composed(parts, job.size, around)
     sunk = nodes_of(relief.mask) | (relief.heights < 0)
     check_clear(sunk, relief.grid, stock_of(job), relief.depth)
     report = _report(settings, parts, relief)
     with finished_together(folder, ALL) as scratch:
-        _write(relief, parts, job, report, scratch)
+        _write(relief, parts, job, report, scratch, around)
         if marks:
             styles.write_marks(marks, job, scratch)
         write_report(report, scratch)
@@ -140,32 +151,42 @@ def make(
 
 
 def _composed(
-    parts: Sequence[_Part], size: tuple[float, float]
+    parts: Sequence[_Part], size: tuple[float, float], around: float | None
 ) -> tuple[Relief, tuple[Marks, ...]]:
     """Lay the reliefs out, and the lines of their marks: one for each cutter."""
-    smooth = compose([part.placed(part.smooth) for part in parts], size)
+    joined = around is not None
+    smooth = compose([part.placed(part.smooth) for part in parts], size, joined=joined)
     lines: dict[Cutter, list[Floats]] = {}
     for part in parts:
         for one in part.marks:
-            lines.setdefault(one.cutter, []).extend(line + part.at for line in one.lines)
+            lines.setdefault(one.cutter, []).extend(part.lines(one, around))
     if not lines:
         return smooth, ()
-    heights = laid_out([part.placed(part.relief) for part in parts], smooth.grid)
+    marked = [part.placed(part.relief) for part in parts]
+    heights = laid_out(marked, smooth.grid, joined=joined)
     marks = [Marks(cutter, smooth, tuple(own)) for cutter, own in lines.items()]
     return replace(smooth, heights=heights), tuple(marks)
 
 
-def _walls(parts: Sequence[_Part], relief: Relief) -> Relief:
+def _walls(parts: Sequence[_Part], relief: Relief, *, joined: bool) -> Relief:
     """Give the walls of all parts, each of its own angle, as `reliefs.read_walls` reads them."""
     walls = [part.walls() for part in parts]
-    edge = laid_out([p.placed(w) for p, w in zip(parts, walls, strict=True)], relief.grid)
+    placed = [part.placed(one) for part, one in zip(parts, walls, strict=True)]
+    edge = laid_out(placed, relief.grid, joined=joined)
     return replace(relief, heights=edge, depth=max(one.depth for one in walls))
 
 
-def _write(relief: Relief, parts: Sequence[_Part], job: Job, report: Report, folder: Path) -> None:
-    strokes = [stroke for part in parts for stroke in part.strokes()]
+def _write(
+    relief: Relief,
+    parts: Sequence[_Part],
+    job: Job,
+    report: Report,
+    folder: Path,
+    around: float | None,
+) -> None:
+    strokes = [stroke for part in parts for stroke in part.strokes(around)]
     looking.write_drawing(strokes, job, folder)
     report["relief"] = reliefs.relief_part(relief)
     report["relief"]["sha256"] = reliefs.write_relief(relief, folder)
-    (folder / WALLS).write_bytes(to_tiff(_walls(parts, relief)))
+    (folder / WALLS).write_bytes(to_tiff(_walls(parts, relief, joined=around is not None)))
     _, report["picture"] = pictures.write_picture(relief, None, job, folder)

@@ -43,7 +43,8 @@ def all_cutters_of(job: Job, marks: Sequence[Marks] | None = None) -> tuple[Cutt
 def setup_of(job: Job, depth: float) -> Setup:
     """Return what the programs of a relief are written for, and judged by."""
     machine, material = machine_of(job), profiles.material(job.material)
-    return Setup(machine, material, milled_of(job), depth, job.units)
+    stock = milled_of(job)
+    return Setup(machine, material, stock, stock.lowest(depth), job.units)
 
 
 def positions_of(job: Job, marks: Sequence[Marks] | None = None) -> tuple[Position | None, ...]:
@@ -91,7 +92,7 @@ def check(job: Job, marks: Sequence[Marks] | None = None) -> None:
     setup = setup_of(job, job.depth)
     check_change(len(cutters) if job.cutter_change == "pause" else 1, setup)
     for position in positions_of(job, marks):
-        check_tools(setup.machine, cutters, setup.stock, job.depth, position)
+        check_tools(setup.machine, cutters, setup.stock, setup.depth, position)
     cut_settings(job)
     if job.stepover is not None:
         check_stepover(job.stepover, cutters[1])
@@ -107,7 +108,7 @@ def plan_paths(
 ) -> tuple[Planned, ...]:
     """Plan the toolpaths of a job, position after position."""
     stock = milled_of(job)
-    milled, lines = laid(relief, stock), laid_strokes(strokes, stock)
+    milled, lines = laid(relief, stock), laid_strokes(strokes, relief, stock)
     planned = [
         (
             position,

@@ -122,13 +122,8 @@ def _setup(report: Mapping[str, Any], depth: float) -> Setup:
     material["use"] = tuple(
         Use(**{**use, "machines": tuple(use["machines"])}) for use in material["use"]
     )
-    return Setup(
-        _machine(report["machine"]),
-        Material(**material),
-        Stock.of(report["slab"]),
-        depth,
-        report["units"],
-    )
+    machine, stock = _machine(report["machine"]), Stock.of(report["slab"])
+    return Setup(machine, Material(**material), stock, stock.lowest(depth), report["units"])
 
 
 def _machine(values: Mapping[str, Any]) -> Machine:
@@ -227,8 +222,10 @@ def write_pictures(
         deviation, figure = deviation.T, figure.T
     colours = deviation_map(deviation, figure, verdict.tolerance_mm)
     (folder / DEVIATION).write_bytes(png8(colours))
-    carved = upright(carved_relief(verdict, laid(relief, stock)), stock)
-    look = predicted_look(relief, carved, light_at(*job.light), texture=job.texture)
+    milled = laid(relief, stock)
+    carved = upright(carved_relief(verdict, milled), stock)
+    wanted = upright(milled, stock)
+    look = predicted_look(wanted, carved, light_at(*job.light), texture=job.texture)
     (folder / LOOK).write_bytes(png8(look))
     return {"deviation": DEVIATION, "look": LOOK}
 

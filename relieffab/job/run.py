@@ -30,8 +30,9 @@ from relieffab.job.folder import (
 from relieffab.job.report import Report, read_report, start_report, write_report
 from relieffab.job.seen import Seen, look_at, read_model
 from relieffab.job.settings import Chosen, Job, job_of
-from relieffab.job.stocks import Drawn, round_of, stock_files
+from relieffab.job.stocks import round_of, stock_files
 from relieffab.layers.model import Layers
+from relieffab.panel.blank import Drafting
 from relieffab.panel.formats import FRAME, STOCK
 from relieffab.progress import Progress, silent
 from relieffab.relief.model import Floats, Relief
@@ -94,7 +95,7 @@ def _mark(
 
 def _carve(
     relief: Relief,
-    stock: Drawn,
+    stock: Drafting,
     job: Job,
     report: Report,
     folder: Path,

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from relieffab.errors import InputError, suggest
 from relieffab.fittings import Edge, Kind
 from relieffab.job.table import SETTINGS, TABLE, Setting
+from relieffab.round import meant_width
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,11 @@ def _read(setting: Setting, text: Any, origin: str) -> Any:
 
 def job_of(chosen: Mapping[str, Chosen]) -> Job:
     """Build the job from resolved settings."""
-    return Job(**{name: choice.value for name, choice in chosen.items()})
+    values = {name: choice.value for name, choice in chosen.items()}
+    if values["round"] is not None:
+        width, height = values["size"]
+        values["size"] = (meant_width(width, values["round"]), height)
+    return Job(**values)
 
 
 def default_job(**values: Any) -> Job:

@@ -5,7 +5,7 @@ from typing import Any
 
 from relieffab.errors import InputError
 from relieffab.job.settings import Job
-from relieffab.job.stocks import Drawn, round_of, stock_of
+from relieffab.job.stocks import round_of, stock_of
 from relieffab.panel.blank import Drafting
 from relieffab.panel.carve import make_panel
 from relieffab.panel.draft import check_draft
@@ -66,7 +66,7 @@ def _check_round(stock: Round | Curved, job: Job) -> None:
 
 def make(
     relief: Relief,
-    drawn: Drawn,
+    drawn: Drafting,
     job: Job,
     progress: Progress = silent,
     *,
@@ -77,7 +77,7 @@ def make(
     Parameters
     ----------
     relief : Relief
-    drawn : Drafting, Round or Curved
+    drawn : Drafting
         The stock.
     job : Job
     progress : Progress
@@ -86,9 +86,9 @@ def make(
         job's angle.
     """
     tolerance = job.mesh_tolerance
-    if not isinstance(drawn, Drafting):
-        return make_round(relief, drawn, tolerance=tolerance, progress=progress), {}
     stock = drawn.stock
+    if not isinstance(stock, Stock):
+        return make_round(relief, stock, tolerance=tolerance, progress=progress), {}
     if job.solid == "plaque":
         own = job.wall_angle if walls is None else walls
         return make_plaque(relief, stock, walls=own, tolerance=tolerance, progress=progress), {}

@@ -18,8 +18,6 @@ from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 Part = dict[str, Any]
-Drawn = Drafting | Round | Curved
-"""A flat stock being drawn, or one of which nothing is drawn."""
 
 
 def round_of(job: Job) -> Round | Curved | None:
@@ -82,22 +80,13 @@ def stock_of(job: Job) -> Stock:
 
 
 def milled_of(job: Job) -> Stock:
-    """Return the stock as it lies on the machine: a round one along X, its face laid out flat.
-
-    Raises
-    ------
-    InputError
-        If it is a curved board, of which no programs are made.
-    """
+    """Return the stock as it lies on the machine: a round one along X, its face laid out flat."""
     bent, flat = round_of(job), stock_of(job)
     if bent is None:
         return flat
     if isinstance(bent, Curved):
-        raise InputError(
-            "programs for a curved board are not made",
-            where="curved",
-            hint="relieffab relief, then relieffab panel, for the solid",
-        )
+        board = (bent.breadth, bent.height, bent.thickness)
+        return Stock.zeroed(board, job.work_zero, job.work_zero_z, curve=bent.radius)
     size = (flat.height, flat.width, flat.thickness)
     radius = bent.diameter / 2
     return Stock.zeroed(size, job.work_zero, job.work_zero_z, radius=radius)
@@ -120,18 +109,14 @@ def machine_of(job: Job) -> Machine:
 
 
 @contextmanager
-def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drawn, Part]]:
+def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drafting, Part]]:
     """Write stock.step and frame.step beside whatever else is done.
 
-    The part, report.json's `stock`, says whether they came to be: a plain slab
-    does without them, and a round stock has none.
+    The part, report.json's `stock`, says whether they came to be: all but a shaped slab
+    does without them.
     """
-    bent = round_of(job)
-    if bent is not None:
-        yield bent, {"file": None, "note": "only a flat stock is drawn"}
-        return
     part: Part = {"file": None, "note": ""}
-    with drafting(stock_of(job), folder) as work:
+    with drafting(round_of(job) or stock_of(job), folder) as work:
         yield work, part
         try:
             work.finish()
@@ -139,5 +124,5 @@ def stock_files(job: Job, folder: Path) -> Iterator[tuple[Drawn, Part]]:
             part["note"] = str(missing)
             return
     part["file"] = STOCK
-    if work.stock.frame:
+    if isinstance(work.stock, Stock) and work.stock.frame:
         part["frame"] = FRAME

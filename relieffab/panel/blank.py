@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +15,12 @@ from relieffab.errors import InputError, RelieffabError
 from relieffab.panel import cad
 from relieffab.panel.formats import FRAME, STOCK
 from relieffab.panel.model import Floats, Ints
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 BLANK = "blank.npz"
+
+AnyStock = Stock | Round | Curved
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +61,8 @@ def make_blank(stock: Stock) -> Blank:
     return Blank(*cad.triangles(cad.stock_solid(stock, cad.frame_solid(stock))))
 
 
-def write_steps(stock: Stock, folder: Path) -> None:
-    """Write stock.step, frame.step where there is one, and a shaped stock's blank.npz.
+def write_steps(stock: AnyStock, folder: Path) -> None:
+    """Write stock.step, frame.step where there is one, and a shaped slab's blank.npz.
 
     Raises
     ------
@@ -67,6 +71,9 @@ def write_steps(stock: Stock, folder: Path) -> None:
     InputError
         If a file cannot be written, or the kernel cannot break the frame's edge.
     """
+    if not isinstance(stock, Stock):
+        cad.write_step(cad.bent_solid(stock), folder / STOCK)
+        return
     frame = cad.frame_solid(stock)
     solid = cad.stock_solid(stock, frame)
     cad.write_step(solid, folder / STOCK)
@@ -82,13 +89,14 @@ class Drafting:
 
     Parameters
     ----------
-    stock : Stock
+    stock : Stock, Round or Curved
     folder : Path
         Where its files go.
     """
 
-    def __init__(self, stock: Stock, folder: Path) -> None:
-        command = [sys.executable, "-m", __name__, json.dumps(asdict(stock)), str(folder)]
+    def __init__(self, stock: AnyStock, folder: Path) -> None:
+        told = [type(stock).__name__, json.dumps(asdict(stock)), str(folder)]
+        command = [sys.executable, "-m", __name__, *told]
         self.stock, self.folder = stock, folder
         self._process = subprocess.Popen(
             command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
@@ -115,8 +123,8 @@ class Drafting:
             raise cad.CadUnavailableError(said if status == UNAVAILABLE else last[0])
 
     def blank(self) -> Blank:
-        """Take the stock's surface; of a shaped one, from the file it left."""
-        if self.stock.plain:
+        """Take a slab's surface; of a shaped one, from the file it left."""
+        if isinstance(self.stock, Stock) and self.stock.plain:
             return _box(self.stock)
         self.finish()
         with np.load(self.folder / BLANK) as held:
@@ -132,7 +140,7 @@ class Drafting:
 
 
 @contextmanager
-def drafting(stock: Stock, folder: Path) -> Iterator[Drafting]:
+def drafting(stock: AnyStock, folder: Path) -> Iterator[Drafting]:
     """Draw a stock beside all that is done meanwhile."""
     work = Drafting(stock, folder)
     try:
@@ -144,9 +152,16 @@ def drafting(stock: Stock, folder: Path) -> Iterator[Drafting]:
 UNAVAILABLE = 4  # exit status where the CAD library is not there
 
 
+def _stock(kind: str, values: dict[str, Any]) -> AnyStock:
+    if kind == "Round":
+        return Round(**values)
+    return Curved(**values) if kind == "Curved" else Stock.of(values)
+
+
 def _main(arguments: list[str]) -> int:
+    kind, values, folder = arguments
     try:
-        write_steps(Stock.of(json.loads(arguments[0])), Path(arguments[1]))
+        write_steps(_stock(kind, json.loads(values)), Path(folder))
     except RelieffabError as error:
         sys.stderr.write(f"{error}\n")
         missing = isinstance(error, cad.CadUnavailableError)

@@ -15,6 +15,7 @@ from relieffab.fittings import Edge, Hole, Keyhole
 from relieffab.outline import Outline
 from relieffab.panel.export import beside
 from relieffab.panel.model import Floats, Ints
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 BEYOND = 1.0  # mm that a cutting solid reaches past what it cuts
@@ -163,6 +164,31 @@ def stock_solid(stock: Stock, frame: Any = None) -> Any:
     for key in stock.keyholes:
         solid = solid.cut(_keyhole(cq, key, bottom))
     return solid
+
+
+def bent_solid(stock: Round | Curved) -> Any:
+    """Draw a round stock or a curved board, placed as `make_round` places what is carved of it.
+
+    Parameters
+    ----------
+    stock : Round or Curved
+
+    Returns
+    -------
+    cadquery.Workplane
+    """
+    cq = cadquery()
+    if isinstance(stock, Round):
+        solid = cq.Workplane("XY").circle(stock.diameter / 2).extrude(stock.length)
+        if not stock.bore:
+            return solid
+        start = stock.floor or -BEYOND
+        plane = cq.Workplane("XY", origin=(0, 0, start))
+        return solid.cut(plane.circle(stock.bore / 2).extrude(stock.length + BEYOND - start))
+    wide, side = stock.breadth, -stock.sagitta
+    plan = cq.Workplane("XZ").moveTo(0, -stock.thickness).lineTo(wide, -stock.thickness)
+    plan = plan.lineTo(wide, side).threePointArc((wide / 2, 0), (0, side)).close()
+    return plan.extrude(-stock.height)
 
 
 def write_step(solid: Any, path: Path) -> None:

@@ -40,6 +40,8 @@ class Bench:
         Whose window the cutter's axis keeps to.
     tell : callable, optional
         Called before each cut; work is cancelled by raising from it.
+    face : (cols + 1,) ndarray, optional
+        Of the uncut stock along X, at nodes, mm; level if not given.
 
     Attributes
     ----------
@@ -53,17 +55,20 @@ class Bench:
         settings: Settings,
         position: Position | None = None,
         tell: Callable[[], None] = lambda: None,
+        face: Floats | None = None,
     ) -> None:
         self.relief = relief
         self.settings = settings
         self.position = position
         self.tell = tell
         self.left: Floats = np.zeros(relief.heights.shape)
+        if face is not None:
+            self.left += face
         self._ground: Ground | None = None
 
     def rough(self, cutter: Cutter, stepdown: float) -> list[Pass]:
         """Clear most of the stock, level by level."""
-        work = rough_work(self.relief, cutter, stepdown, self.settings.allowance)
+        work = rough_work(self.relief, self._standing, cutter, stepdown, self.settings.allowance)
         parts = rough_passes(work, reverse=self._turns, position=self.position)
         for part in parts:
             tips = np.concatenate(
@@ -117,17 +122,20 @@ class Bench:
             parts += self._cut(work, sample(walls, work.step))
         return parts
 
+    @property
+    def _standing(self) -> Terrain:
+        return Terrain.over(self.relief.grid, self.left, self.relief.radius)
+
     def _work(self, cutter: Cutter, stepdown: float, least: float) -> Work:
         """Set a cutter before what is left."""
         grid = self.relief.grid
         # The skin makes every bump wider than this, so that none passes between two samples.
         narrow = cutter.points[1][0] if cutter.shape == "form" else cutter.arc_end
         step = min(grid.pitch / 2, 0.2 * max(narrow, 0.1))
-        stock = Terrain.over(grid, self.left, self.relief.radius)
         tolerance = self.settings.tolerance
         if self._ground is None or self._ground.cutter != cutter:
             self._ground = Ground(self.relief, cutter, SKIN)
-        return Work(self._ground, stock, stepdown, tolerance, least, step)
+        return Work(self._ground, self._standing, stepdown, tolerance, least, step)
 
     def _cut(
         self, work: Work, trace: Trace, *, dropped: bool = False, fixed: bool = False

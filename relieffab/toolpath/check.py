@@ -50,10 +50,13 @@ def check_tools(
     depth: float,
     position: Position | None = None,
 ) -> None:
-    """Refuse a machine or cutters that do not fit the stock, or its part, and the depth, mm."""
+    """Refuse a machine or cutters that do not fit the stock, or its part, and the depth, mm.
+
+    The depth is under Z0; flutes have to reach no further than under the face.
+    """
     _check_travel(machine, position.size if position else (stock.width, stock.height), depth)
     for cutter in cutters:
-        _check_cutter(cutter, stock, depth)
+        _check_cutter(cutter, stock, depth - stock.lowest(0.0))
 
 
 def check_stepover(stepover: float, cutter: Cutter) -> None:

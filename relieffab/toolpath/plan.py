@@ -100,7 +100,8 @@ def plan(
         progress("toolpaths", len(paths), len(used), "programs")
 
     terrain = Terrain.of(marks[0].smooth if marks else relief, slab.radius)
-    bench = Bench(_part(terrain, position, used), settings, position, tell)
+    part = _part(terrain, position, used)
+    bench = Bench(part, settings, position, tell, slab.face(part.grid.node_axes()[0]))
     stages: list[Stage] = [bench.rough, bench.finish, partial(bench.lines, strokes=strokes)]
     if marks:
         marked = _part(Terrain.of(relief, slab.radius), position, used)

@@ -100,6 +100,27 @@ def _on_cell(best, heights, i, j, x0, pitch, radius, turn, outline):  # type: ig
 
 
 @kernel
+def _turned_row(i, cy, low, pitch, radius):  # type: ignore[no-untyped-def]
+    """Give a row's turn from the cutter at cy, how near it comes, and its largest cosine."""
+    p0, p1 = (i * pitch - cy) / radius, ((i + 1) * pitch - cy) / radius
+    turn = (sin(p0), cos(p0), sin(p1), cos(p1))
+    if p0 <= 0.0 <= p1:
+        return turn, 0.0, 1.0
+    return turn, (radius + low) * min(abs(turn[0]), abs(turn[2])), max(turn[1], turn[3])
+
+
+@kernel
+def _bound(best, top, keeps, x0, dy, pitch, radius, outline):  # type: ignore[no-untyped-def]
+    """Tip height that a cell cannot ask more of; -inf where the cutter does not reach it."""
+    rise = (radius + top) * keeps - radius
+    if rise <= best:
+        return -inf
+    dx = max(x0, -x0 - pitch, 0.0)
+    away = sqrt(dx * dx + dy * dy)
+    return rise - height_at(outline, away) if away <= outline[-1, R1] else -inf
+
+
+@kernel
 def _on_rows(best, heights, cell_top, cx, cy, low, pitch, radius, outline):  # type: ignore[no-untyped-def]
     """Tip height at which the cutter at (cx, cy) rests on any cell, or `best`."""
     rows, cols = cell_top.shape
@@ -110,17 +131,26 @@ def _on_rows(best, heights, cell_top, cx, cy, low, pitch, radius, outline):  # t
     first = max(int(np.floor((cy - wide * radius) / pitch)), 0)
     last = min(int(np.floor((cy + wide * radius) / pitch)), rows - 1)
     left, right = max(int((cx - reach) / pitch) - 1, 0), min(int((cx + reach) / pitch), cols - 1)
+    # The cell that may ask the most comes first: after it most others need no look.
+    most, at = best, (-1, -1)
     for i in range(first, last + 1):
-        p0, p1 = (i * pitch - cy) / radius, ((i + 1) * pitch - cy) / radius
-        turn = (sin(p0), cos(p0), sin(p1), cos(p1))
-        dy = 0.0 if p0 <= 0.0 <= p1 else least * min(abs(turn[0]), abs(turn[2]))
+        _, dy, keeps = _turned_row(i, cy, low, pitch, radius)
         for j in range(left, right + 1):
             x0 = j * pitch - cx
-            dx = max(x0, -x0 - pitch, 0.0)
-            away = sqrt(dx * dx + dy * dy)
-            if away > reach or cell_top[i, j] - height_at(outline, away) <= best:
-                continue
-            best = _on_cell(best, heights, i, j, x0, pitch, radius, turn, outline)
+            bound = _bound(most, cell_top[i, j], keeps, x0, dy, pitch, radius, outline)
+            if bound > most:
+                most, at = bound, (i, j)
+    if at[0] < 0:
+        return best
+    turn, _, _ = _turned_row(at[0], cy, low, pitch, radius)
+    best = _on_cell(best, heights, at[0], at[1], at[1] * pitch - cx, pitch, radius, turn, outline)
+    for i in range(first, last + 1):
+        turn, dy, keeps = _turned_row(i, cy, low, pitch, radius)
+        for j in range(left, right + 1):
+            x0 = j * pitch - cx
+            bound = _bound(best, cell_top[i, j], keeps, x0, dy, pitch, radius, outline)
+            if bound > best:
+                best = _on_cell(best, heights, i, j, x0, pitch, radius, turn, outline)
     return best
 
 

@@ -2,8 +2,6 @@
 
 from math import ceil
 
-import numpy as np
-
 from relieffab.cutter import Cutter
 from relieffab.toolpath.envelope import Places, Terrain
 from relieffab.toolpath.passes import Ground, Pass, Work, one_pass
@@ -20,20 +18,22 @@ _LATTICE = 0.05
 _SLIVER = 0.02
 
 
-def rough_work(relief: Terrain, cutter: Cutter, stepdown: float, allowance: float) -> Work:
+def rough_work(
+    relief: Terrain, stock: Terrain, cutter: Cutter, stepdown: float, allowance: float
+) -> Work:
     """Set a roughing cutter before the whole slab.
 
     Parameters
     ----------
-    relief : Terrain
+    relief, stock : Terrain
+        What is wanted, and the uncut stock.
     cutter : Cutter
     stepdown, allowance : float
         mm.
     """
-    slab = Terrain.over(relief.grid, np.zeros(relief.grid.node_shape), relief.radius)
     step = min(relief.grid.pitch, allowance)
     ground = Ground(relief, cutter, allowance)
-    return Work(ground, slab, stepdown, _TOLERANCE, _LEAST, step)
+    return Work(ground, stock, stepdown, _TOLERANCE, _LEAST, step)
 
 
 def rough_passes(

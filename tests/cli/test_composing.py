@@ -100,3 +100,17 @@ def test_each_keeps_its_own_walls(folders, tmp_path):
     assert np.abs(wanted.heights - raised(relief, 80.0).heights).max() > 0.3
     height = (wanted.heights + relief.depth)[1:, 1:].sum() * relief.grid.pitch**2
     assert plaque.volume == pytest.approx(95 * 40 * 12 + height, rel=1e-3)
+
+
+def test_a_frieze_goes_round_a_column_through_its_seam(folders, tmp_path):
+    out = tmp_path / "frieze"
+    coarse = folders / "coarse"
+    places = [f"{coarse}@25x1mm", f"{coarse}@67x1mm"]
+    column = ["--round", "27mm", "--size", "84.82x32mm", "-o", str(out)]
+    assert run(["compose", *places, *column]) == 0
+    relief = read_relief(out / "relief.tiff")
+    assert relief.grid.cols * relief.grid.pitch == pytest.approx(27 * np.pi, abs=1e-7)
+    assert relief.mask[:, 0].any() and relief.mask[:, -1].any()
+    assert run(["panel", str(out)]) == 0
+    solid = trimesh.load_mesh(out / "panel.stl")
+    assert solid.is_volume and solid.euler_number == 2

@@ -20,6 +20,16 @@ def test_the_outline_is_traced_above_the_stock_with_the_spindle_off():
     assert [point[:2] for point in machine.path[1:]] == [pytest.approx(c) for c in corners]
 
 
+def test_the_outline_of_work_that_turns_is_turned():
+    program = prepare("G93\nG0Z5\nG0X2A-30\nG1Z-1F300\nX42F9\nA60F9\nX2F9\nG0Z5\nM5")
+    with open_port(FAST + "&axes=4") as port:
+        send(outline(program), port)
+        path = port.device.machine.path
+    assert {point[1:3] for point in path} == {(0.0, 5.0)}
+    corners = [(2, -30), (42, -30), (42, 60), (2, 60), (2, -30)]
+    assert [point[::3] for point in path[1:]] == [pytest.approx(c, abs=0.01) for c in corners]
+
+
 @pytest.mark.parametrize("text", [outline(prepare("G0X2Y3Z5\nG1X9Y9F300")), touch(15.0)])
 def test_a_spindle_that_turns_is_switched_off_first(text):
     seen = []

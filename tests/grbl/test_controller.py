@@ -87,3 +87,18 @@ def test_limits_are_what_the_settings_say():
     assert known.limits.max_rate == (900, 800, 700)
     assert known.limits.acceleration == (30, 20, 10)
     assert known.limits.junction == 0.02
+
+
+def test_a_fourth_axis_counts_in_all_that_it_says():
+    known = controller(
+        Note("G54", "1.000,2.000,3.000,45.000"), Note("TLO", "0.500"), _133=0,
+        **{f"_{100 + k}": 800 for k in range(3)}, _103=20,
+        **{f"_{110 + k}": 1000 + k for k in range(4)},
+    )  # fmt: skip
+    assert known.axes == 4
+    assert known.work_zero == (1.0, 2.0, 3.5, 45.0)
+    assert known.travel == (100.0, 80.0, 30.0, 0.0)
+    assert known.resolution == 1 / 20
+    assert known.limits.max_rate == (1000.0, 1001.0, 1002.0, 1003.0)
+    known.learn(Setting(13, 1.0))
+    assert known.work_zero == pytest.approx((25.4, 50.8, 88.9, 45.0))

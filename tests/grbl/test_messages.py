@@ -27,6 +27,18 @@ from relieffab.grbl.messages import (
         ("\x00\x1fGrbl 1.1h ['$' for help]", Banner("1.1h")),
         ("$110=1600.000", Setting(110, 1600.0)),
         ("[OPT:V,15,128]", Note("OPT", "V,15,128")),
+        (
+            "<Run|MPos:1.000,2.000,-0.500,-33.500|Bf:99,1023|FS:300,0|WCO:0.000,0.000,5.000,90.000>",
+            Status(
+                "Run",
+                machine=(1, 2, -0.5, -33.5),
+                offset=(0, 0, 5, 90),
+                blocks_free=99,
+                bytes_free=1023,
+                feed=300,
+                speed=0,
+            ),
+        ),
     ],
 )
 def test_lines_are_read(line, message):
@@ -85,3 +97,8 @@ def test_no_line_whatever_breaks_the_reader(line):
     parse(line)
     parse("<" + line + ">")
     parse("$" + line)
+
+
+def test_inches_are_of_lengths_and_degrees_stay():
+    status = parse("<Idle|MPos:1.0000,0.0000,-0.5000,90.000|FS:10,0>").in_mm()
+    assert status.machine == pytest.approx((25.4, 0.0, -12.7, 90.0))

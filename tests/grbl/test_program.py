@@ -81,7 +81,9 @@ def test_the_pieces_of_the_way_name_their_line():
     program = prepare("G0X0Y0Z0\nG1X3F60\nG4P2\nG0Z5")
     pieces = [PIECE.unpack_from(data, at) for data in program.pieces()
               for at in range(0, len(data), PIECE.size)]  # fmt: skip
-    assert pieces[1:] == [(1, 3, 0, 0, 60), (2, 0, 0, 0, -2), (3, 0, 0, 5, float("inf"))]
+    assert pieces[1:] == [
+        (1, 3, 0, 0, 0, 60), (2, 0, 0, 0, 0, -2), (3, 0, 0, 5, 0, float("inf")),
+    ]  # fmt: skip
 
 
 def test_comments_do_not_change_the_digest_but_lines_do():

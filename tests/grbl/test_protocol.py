@@ -4,6 +4,7 @@ import math
 import random
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -417,11 +418,63 @@ def test_an_interrupted_job_is_taken_up_again_where_it_stopped():
     assert path[-(len(points) - first) :] == [
         pytest.approx(p, abs=1 / 1600) for p in points[first:]
     ]
-    up, across, down, plunge = path[-(len(points) - first) - 4 : -(len(points) - first)]
+    up, across, plunge = path[-(len(points) - first) - 3 : -(len(points) - first)]
     assert up[2] == across[2] == pytest.approx(5.0)
     assert up[:2] == pytest.approx(record.position[:2], abs=1e-3)
-    assert across[:2] == down[:2] == plunge[:2]
-    assert down[2] == pytest.approx(1.0)
+    assert across[:2] == plunge[:2]
+
+
+def turning(count):
+    """A program that goes round and round, 9 degrees a move, by inverse time."""
+    points = [(1.0 + i * 0.02, 0.0, -0.5 - (i % 3) * 0.1, -9.0 * i) for i in range(count)]
+    cuts = "".join(f"G1X{x:.3f}A{a:g}Z{z:g}F240\n" for x, _, z, a in points)
+    return prepare(f"G21G90G94\nG93\nM3S1000\nG0Z5\nG0X1A0\n{cuts}G0Z5\nM5\nG94\nM30\n"), points
+
+
+def test_work_that_turns_is_followed_and_taken_up_again():
+    program, points = turning(100)
+    wire = Wire(session_of(program), axes=4)
+    wire.run(until=lambda: wire.session.cut_mm > 300)
+    assert len(wire.session.view().position) == 4
+    wire.session.cancel(wire.machine.now)
+    record = wire.run().record()
+    assert record.position_kept and record.position[3] < -250
+    first = record.line - 6
+    again = Wire(session_of(program, now=wire.machine.now, resume=Resume(record)))
+    again.machine = wire.machine
+    again.machine.wire.sent.clear()
+    session = again.run()
+    assert session.failure is None and at_rest(again.machine)
+    steps = [800, 800, 800, 88.889]
+    path = again.machine.path[:-1]
+    for made, wanted in zip(path[-(len(points) - first) :], points[first:], strict=True):
+        assert np.abs(np.subtract(made, wanted) * steps).max() <= 0.51
+    # Up, then round, then along, and only then down.
+    before = path[-(len(points) - first) - 4 : -(len(points) - first)]
+    up, round_to, along, plunge = before
+    assert up[2] == round_to[2] == along[2] == pytest.approx(5.0)
+    assert up[3] == pytest.approx(record.position[3], abs=0.01)
+    assert round_to[0] == up[0] and round_to[3] == along[3] == plunge[3]
+    assert round_to[3] == pytest.approx(points[first - 1][3], abs=0.01)
+
+
+def test_homing_does_not_take_y_from_the_axis_of_work_that_turns():
+    program, _ = turning(3)
+    wire = Wire(session_of(program, home=True), axes=4, settings={22: 1})
+    session = wire.run()
+    assert (
+        session.failure.fault is Fault.MISFIT and "Y away from the axis" in session.failure.message
+    )
+    assert wire.machine.path == []
+
+
+def test_an_altered_angle_stops_the_machine():
+    """One wrong digit of A shows as a machine off the programmed way."""
+    program, _ = turning(60)
+    wire = Wire(session_of(program), axes=4)
+    write = wire.machine.write
+    wire.machine.write = lambda data: write(data.replace(b"A-180Z", b"A-100Z"))
+    assert wire.run().failure.fault is Fault.OFF_COURSE
 
 
 def test_a_lost_zero_is_not_carved_from():

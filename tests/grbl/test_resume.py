@@ -51,13 +51,45 @@ def test_what_is_in_force_in_front_of_a_line_is_rebuilt(number):
 def test_up_across_spindle_then_slowly_down():
     lines = approach(entry(prepare(PROGRAM), number=11), 2.0)
     assert lines[:7] == [
-        "G17G21G90G94", "G0Z12.7000", "G0X27.9400Y25.4000", "M3S8000", "G4P5", "M8", "G0Z1.0000",
+        "G17G21G90G94", "G0Z12.7000", "G0X27.9400Y25.4000", "M3S8000", "G4P5", "M8",
+        "G1Z-2.5400F127",
     ]  # fmt: skip
-    assert lines[7] == "G1Z-2.5400F127"
 
 
 def test_a_tool_already_higher_stays_there_until_it_is_across():
-    assert approach(entry(prepare(PROGRAM), number=11), 40.0)[1] == "G0Z40.0000"
+    lines = approach(entry(prepare(PROGRAM), number=11), 40.0)
+    assert [line for line in lines if "Z" in line] == [
+        "G0Z40.0000", "G0Z12.7000", "G1Z-2.5400F127",
+    ]  # fmt: skip
+
+
+TURNING = """G21G90G17G94G54
+G93
+G0Z5
+M3S9000
+G0X10A-30
+G1Z-1F200
+X12A-33.5F150
+A-40Z-1.5F90
+G0Z5
+M5
+G94
+M30
+"""
+
+
+def test_work_that_turns_is_brought_round_before_anything_goes_down():
+    point = entry(prepare(TURNING), number=8)
+    assert approach(point, 2.0) == [
+        "G17G21G90G94", "G0Z5.0000", "G0A-33.5000", "G0X12.0000", "M3S9000", "G4P5",
+        f"G1Z-1.0000F{90 * math.hypot(6.5, 0.5):g}", "G17G21G90", "G1", "G93",
+    ]  # fmt: skip
+
+
+def test_the_turning_is_known_before_work_that_turns_is_taken_up():
+    assert entry(prepare(TURNING), number=6).position == (10.0, None, 5.0, -30.0)
+    with pytest.raises(InputError, match="no position"):
+        entry(prepare(TURNING), number=5)
 
 
 def test_above_the_stock_there_is_no_plunge():
@@ -99,6 +131,8 @@ def test_the_zero_is_believed_only_where_the_machine_stands_as_it_stopped():
         (RECORD, (0, 0, 0), (-9, 0, 0), "does not stand"),
         (RECORD, (1, 2, 3), (0, 0, 0), "work zero"),
         (RECORD, None, (-9, 0, 0), "lost"),
+        (RECORD, (1, 2, 3, 4), (-9, 0, 0), "does not stand"),
+        (RECORD, (1, 2, 3, 4), (-9, 0, 0, 0), "work zero"),
     ],
 )
 def test_why_a_zero_is_not_believed(record, position, zero, why):

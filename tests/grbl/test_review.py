@@ -1,10 +1,8 @@
 import pytest
 
-from relieffab.errors import InputError
 from relieffab.grbl.controller import Controller
 from relieffab.grbl.messages import Note, Setting
 from relieffab.grbl.program import prepare
-from relieffab.grbl.resume import entry
 from relieffab.grbl.review import misfits, review
 
 
@@ -61,7 +59,7 @@ def test_codes_grbl_does_not_know_are_named_with_their_line():
     assert len(review(program, mist).refusals) == 3
     hal = controller()
     hal.hal = True
-    assert review(program, hal).refusals == ()
+    assert [text.split(" is")[0] for text in review(program, hal).refusals] == ["line 6: A"]
 
 
 def test_a_spindle_asked_for_too_much_is_noted():
@@ -77,9 +75,14 @@ def test_a_zero_never_set_is_noted_on_a_homed_machine():
 def test_a_rotary_axis_is_for_controllers_that_have_one():
     program = prepare("G21G90G93\nG0Z5\nX0A0\nG1X1A5F60\nG0Z5\nM30")
     assert [text[:14] for text in review(program, controller()).refusals] == ["line 3: A is e"]
-    hal = controller()
+    hal = controller(_22=1, _133=360)
     hal.hal = True
-    assert review(program, hal).refusals == ()
-    # Where the work is turned to is not followed: such a job begins at its beginning.
-    with pytest.raises(InputError, match="no position is named on every axis"):
-        entry(program, number=5)
+    assert [text[:14] for text in review(program, hal).refusals] == ["line 3: A is e"]
+    hal.offsets["G54"] = (0.0, 0.0, -9.0, 0.0)
+    found = review(program, hal)
+    assert found.refusals == ()
+    assert "never moves Y" in found.notes[-1]
+    assert "A goes from 0.000 to 5.000 degrees in machine coordinates" in found.notes[1]
+    # Where A has no end there is nothing to leave.
+    hal.settings[133] = 0
+    assert len(review(program, hal).notes) == 2

@@ -1,3 +1,6 @@
+from dataclasses import asdict
+from math import cos, sin
+
 import pytest
 
 from relieffab import profiles
@@ -65,11 +68,16 @@ def test_a_round_stock_is_laid_out_flat_and_lies_along_x():
     assert milled_of(axis).work_zero == (0.0, 0.0, -40.0)
 
 
-def test_a_curved_board_has_a_solid_and_no_programs():
+def test_a_curved_board_lies_on_its_back():
     job = default_job(curved="300mm")
     assert round_of(job) == Curved(120.0, 90.0, 12.0, 300.0)
-    with pytest.raises(InputError, match="curved board are not made"):
-        milled_of(job)
+    board = milled_of(job)
+    assert (board.width, board.height, board.thickness) == (
+        pytest.approx(600 * sin(0.2)), 90.0, 12.0,
+    )  # fmt: skip
+    assert board.face([0.0, board.width / 2]) == pytest.approx([300 * cos(0.2) - 300, 0.0])
+    assert board.lowest(3.0) == pytest.approx(3 + 300 * (1 - cos(0.2)))
+    assert Stock.of(asdict(board)) == board
 
 
 @pytest.mark.parametrize(

@@ -62,8 +62,8 @@ def test_a_cad_library_that_is_not_there_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(module.cad, "frame_solid", missing)
     with pytest.raises(CadUnavailableError):
         write_steps(FRAMED, tmp_path)
-    assert module._main(['{"width": 9, "height": 9, "thickness": 3}', str(tmp_path)]) == 4
-    assert module._main(['{"width": 9, "height": 9, "thickness": 0}', str(tmp_path)]) == 2
+    assert module._main(["Stock", '{"width": 9, "height": 9, "thickness": 3}', str(tmp_path)]) == 4
+    assert module._main(["Stock", '{"width": 9, "height": 9, "thickness": 0}', str(tmp_path)]) == 2
 
 
 def test_a_process_that_ends_by_itself_is_no_success(tmp_path):

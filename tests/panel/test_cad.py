@@ -9,7 +9,15 @@ import trimesh
 from relieffab.errors import InputError
 from relieffab.fittings import Edge, Frame, Hole, Keyhole
 from relieffab.panel import cad
-from relieffab.panel.cad import CadUnavailableError, frame_solid, stock_solid, triangles, write_step
+from relieffab.panel.cad import (
+    CadUnavailableError,
+    bent_solid,
+    frame_solid,
+    stock_solid,
+    triangles,
+    write_step,
+)
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 pytest.importorskip("cadquery", exc_type=ImportError)
@@ -48,6 +56,39 @@ def test_volumes_are_those_of_the_formula(stock, volume):
     made = solid(stock)
     assert made.isValid()
     assert made.Volume() == pytest.approx(volume, rel=1e-9)
+
+
+HALF = 120 / 300 / 2  # of the angle a board of 120 mm takes of a circle of 300 mm
+WIDE = 2 * 300 * np.sin(HALF)
+BOARD = 300**2 / 2 * (2 * HALF - np.sin(2 * HALF)) + WIDE * (16 - 300 * (1 - np.cos(HALF)))
+
+
+@pytest.mark.parametrize(
+    ("stock", "volume", "low", "high"),
+    [
+        (Round(40, 30, 80), pi * 40**2 * 30, (-40, -40, 0), (40, 40, 30)),
+        (Round(40, 30, 80, 60), pi * (40**2 - 30**2) * 30, (-40, -40, 0), (40, 40, 30)),
+        (Round(40, 30, 80, 60, 5), pi * (40**2 * 30 - 30**2 * 25), (-40, -40, 0), (40, 40, 30)),
+        (Curved(120, 30, 16, 300), BOARD * 30, (0, 0, -16), (WIDE, 30, 0)),
+    ],
+)
+def test_round_stocks_read_back_with_the_volume_of_the_formula(tmp_path, stock, volume, low, high):
+    import cadquery
+
+    write_step(bent_solid(stock), tmp_path / "stock.step")
+    read = cadquery.importers.importStep(str(tmp_path / "stock.step")).val()
+    assert read.isValid()
+    assert read.Volume() == pytest.approx(volume, rel=1e-9)
+    box = read.BoundingBox()
+    assert (box.xmin, box.ymin, box.zmin) == pytest.approx(low, abs=1e-6)
+    assert (box.xmax, box.ymax, box.zmax) == pytest.approx(high, abs=1e-6)
+    # A cup's floor is below.
+    floor = np.array([box.zmin for box in map(_box, read.Faces()) if box.zmax == box.zmin])
+    assert (5.0 in floor.round(6)) == (getattr(stock, "floor", 0) == 5)
+
+
+def _box(shape):
+    return shape.BoundingBox()
 
 
 def test_a_keyhole_has_a_way_in_a_neck_and_room_for_the_head():

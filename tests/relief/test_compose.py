@@ -96,3 +96,50 @@ def test_pecks_may_not_lie_on_another_figure():
     assert (laid_out(places[:1], made.grid) == made.heights).all()
     with pytest.raises(InputError, match=r"(?s)b overlaps a.*pecked ground"):
         laid_out(places, made.grid)
+
+
+def test_round_a_seam_a_relief_is_the_same_as_elsewhere():
+    """Placed a whole number of pixels further round, everything is rolled by as many."""
+    one, other = relief(), relief(rows=6, depth=3.0)
+    size = (20.0, 9.0)
+
+    def made(x):
+        return compose(
+            [Placed(one, (x, 2), "a"), Placed(other, (x + 9, 1), "b")], size, joined=True
+        )
+
+    middle, across = made(1.0), made(16.5)
+    assert middle.grid.pitch == 0.5 and middle.grid.cols == 40
+    assert across.mask[:, :4].any() and across.mask[:, -4:].any()
+    np.testing.assert_array_equal(across.heights[:, 0], across.heights[:, -1])
+    np.testing.assert_allclose(
+        across.heights[:, :-1], np.roll(middle.heights[:, :-1], 31, axis=1), atol=1e-12
+    )
+    parts = [Placed(one, (16.5, 2), "a"), Placed(other, (25.5, 1), "b")]
+    np.testing.assert_array_equal(laid_out(parts, across.grid, joined=True), across.heights)
+    np.testing.assert_array_equal(across.mask, np.roll(middle.mask, 31, axis=1))
+    np.testing.assert_allclose(made(16.5 - 3 * 20).heights, across.heights, atol=1e-12)
+
+
+def test_a_frieze_that_meets_itself_is_taken_once():
+    grid = Grid(8, 40, 0.5, (0.0, 4.0))
+    heights = np.zeros(grid.node_shape)
+    heights[2:-2] = -1.0
+    frieze = Relief(grid, heights, np.ones(grid.shape, bool), 1.0)
+    made = compose([Placed(frieze, (0, 0), "a")], (20.0, 4.0), joined=True)
+    np.testing.assert_array_equal(made.heights, heights)
+
+
+def test_where_edges_meet_pixels_go_round_a_whole_number_of_times():
+    made = compose([Placed(relief(pitch=0.7), (19, 0), "a")], (31.41, 9), joined=True)
+    assert made.grid.pitch * made.grid.cols == pytest.approx(31.41, abs=1e-12)
+    assert 0.68 < made.grid.pitch <= 0.7
+    assert made.grid.origin[0] == 0.0
+
+
+def test_figures_that_overlap_round_the_seam_are_refused():
+    parts = [Placed(relief(), (17, 0), "a"), Placed(relief(), (0, 0), "b")]
+    with pytest.raises(InputError, match="b overlaps a"):
+        compose(parts, (20.0, 9.0), joined=True)
+    with pytest.raises(InputError, match="beyond the panel"):
+        compose([Placed(relief(), (0, 0), "a")], (7.9, 9.0), joined=True)

@@ -4,7 +4,7 @@ import pytest
 from relieffab import profiles
 from relieffab.grid import Grid
 from relieffab.layers.model import Stroke
-from relieffab.relief.laid import laid, laid_marks, laid_strokes, upright
+from relieffab.relief.laid import laid, laid_marks, laid_strokes, parted, parted_line, upright
 from relieffab.relief.model import Relief
 from relieffab.relief.style.model import Marks
 from relieffab.round import Round
@@ -37,11 +37,11 @@ def test_on_a_flat_stock_nothing_happens(relief):
     flat = Stock(10.0, 20.0, 5.0)
     assert laid(relief, flat) is relief and upright(relief, flat) is relief
     strokes = [Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))]
-    assert laid_strokes(strokes, flat) is strokes
+    assert laid_strokes(strokes, relief, flat) is strokes
 
 
 def test_strokes_go_where_their_relief_goes():
-    (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], STOCK)
+    (found,) = laid_strokes([Stroke(np.array([[1.0, 2.0]]), "crease", np.ones(1))], None, STOCK)
     np.testing.assert_array_equal(found.points, [[8.0, 19.0]])
 
 
@@ -65,3 +65,38 @@ def test_programs_carve_what_the_solid_shows_and_not_its_mirror_image():
     assert chirality[0] == pytest.approx(chirality[1])
     one, other = (np.linalg.norm(points[:, None] - points[None], axis=2) for points in (solid, cut))
     np.testing.assert_allclose(one, other)
+
+
+def test_a_line_across_the_seam_is_parted_there():
+    line = Stroke(
+        np.array([[18.0, 0.0], [21.0, 3.0], [19.0, 5.0]]), "crease", np.array([0, 0.6, 1])
+    )
+    one, two, three = parted(line, 20.0)
+    np.testing.assert_allclose(one.points, [[18, 0], [20, 2]])
+    np.testing.assert_allclose(two.points, [[0, 2], [1, 3], [0, 4]])
+    np.testing.assert_allclose(three.points, [[20, 4], [19, 5]])
+    np.testing.assert_allclose(two.strength, [0.4, 0.6, 0.8])
+
+
+def test_the_lines_of_marks_are_parted_and_pecks_brought_round():
+    one, two = parted_line(np.array([[18.0, 0.0], [22.0, 4.0]]), 20.0)
+    np.testing.assert_allclose(one, [[18, 0], [20, 2]])
+    np.testing.assert_allclose(two, [[0, 2], [2, 4]])
+    (peck,) = parted_line(np.array([[41.0, 3.0], [41.0, 3.0]]), 20.0)
+    np.testing.assert_allclose(peck, [[1, 3], [1, 3]])
+
+
+def test_a_ring_across_the_seam_becomes_open_halves():
+    ring = Stroke(np.array([[-1.0, 0], [1, 0], [1, 1], [-1, 1]]), "crease", np.ones(4), closed=True)
+    parts = parted(ring, 20.0)
+    assert [part.closed for part in parts] == [False] * 3
+    assert sorted(len(part.points) for part in parts) == [2, 3, 4]
+    assert all((part.points[:, 0] >= 0).all() and (part.points[:, 0] <= 20).all() for part in parts)
+    np.testing.assert_allclose(parts[0].points, [[19, 0], [20, 0]])
+
+
+def test_a_line_a_turn_away_is_brought_back_whole():
+    line = Stroke(np.array([[-18.0, 0.0], [-12.0, 3.0]]), "crease", np.ones(2), closed=True)
+    (back,) = parted(line, 20.0)
+    np.testing.assert_allclose(back.points, [[2, 0], [8, 3]])
+    assert back.closed

@@ -10,6 +10,7 @@ from relieffab.toolpath.remains import after
 from relieffab.toolpath.rough import rough_passes, rough_work
 
 GRID = Grid(100, 120, 0.1, (0.0, 10.0))
+SLAB = Terrain.over(GRID, np.zeros(GRID.node_shape))
 FLAT = Cutter("c", "flat", 1.5, 9.0, 1.0, 800.0, 200.0, 9000.0)
 ALLOWANCE = 0.2
 
@@ -24,7 +25,7 @@ def pits():
 
 @pytest.fixture(scope="module")
 def levels():
-    work = rough_work(Terrain.over(GRID, pits()), FLAT, 0.8, ALLOWANCE)
+    work = rough_work(Terrain.over(GRID, pits()), SLAB, FLAT, 0.8, ALLOWANCE)
     return work, rough_passes(work)
 
 
@@ -66,7 +67,9 @@ def test_deep_levels_leave_shallow_places_alone(levels):
 
 
 def test_nothing_above_the_face_is_roughed():
-    work = rough_work(Terrain.over(GRID, np.full(GRID.node_shape, -0.05)), FLAT, 0.8, ALLOWANCE)
+    work = rough_work(
+        Terrain.over(GRID, np.full(GRID.node_shape, -0.05)), SLAB, FLAT, 0.8, ALLOWANCE
+    )
     assert rough_passes(work) == []
 
 

@@ -3,6 +3,7 @@
     sim://?speed=max                 as fast as the host can: time is what the machine needs
     sim://?speed=1                   in real time; 20 is twenty times as fast
     sim://?boot=0.1&$110=5000        seconds to the banner; settings
+    sim://?axes=4&$113=3600          a grblHAL with a rotary axis A
     sim://?unplug_at=3               a fault (see simulator/faults.py)
 
 Under `speed=max` the clock goes on only while the caller waits in `read`.  Nothing here
@@ -27,6 +28,7 @@ SHORTEST_SLEEP, LONGEST_SLEEP = 0.0005, 0.05
 """Seconds on the host's clock between two looks at the machine."""
 
 _NUMBERS: dict[str, Callable[[str], float]] = {
+    "axes": int,
     "rx_buffer": int,
     "planner_blocks": int,
     **dict.fromkeys(("line_rate", "baud", "boot", "latency", "plate"), float),
@@ -223,6 +225,8 @@ def read_url(url: str) -> dict:
             ) from None
     if options["speed"] <= 0:
         raise InputError("the speed must be more than 0, or max", where=url)
+    if options.get("axes", 3) not in (3, 4):
+        raise InputError("the simulator has three axes, or four with A", where=url)
     options["faults"] = Faults(**faults)
     if settings:
         options["settings"] = settings

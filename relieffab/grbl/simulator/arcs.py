@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from relieffab.grbl.simulator.words import Refused
 
-Point = tuple[float, float, float]
+Point = tuple[float, ...]
 
 _FULL = 5e-7
 
@@ -42,7 +42,7 @@ def chords(
     *, clockwise: bool, tolerance: float,
 ) -> Iterator[Point]:  # fmt: skip
     """Yield the ends of the chords from `start` to `end` around `start + offset`."""
-    u, v, w = axes
+    u, v, _ = axes
     cu, cv = start[u] + offset[0], start[v] + offset[1]
     ru, rv = -offset[0], -offset[1]
     qu, qv = end[u] - cu, end[v] - cv
@@ -57,9 +57,8 @@ def chords(
     for step in range(1, count):
         angle = sweep * step / count
         c, s = math.cos(angle), math.sin(angle)
-        point = [0.0, 0.0, 0.0]
+        point = [a + (b - a) * step / count for a, b in zip(start, end, strict=True)]
         point[u] = cu + ru * c - rv * s
         point[v] = cv + ru * s + rv * c
-        point[w] = start[w] + (end[w] - start[w]) * step / count
-        yield point[0], point[1], point[2]
+        yield tuple(point)
     yield end

@@ -111,7 +111,7 @@ def _offsets(machine: Host) -> None:
 
 
 def _info(machine: Host) -> None:
-    for line in reports.build_info(machine.wire, machine.planner.size):
+    for line in reports.build_info(machine.wire, machine.planner.size, machine.settings.axes):
         machine.say(line)
 
 

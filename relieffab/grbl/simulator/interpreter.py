@@ -14,7 +14,7 @@ from relieffab.grbl.simulator.coordinates import Coordinates, Values
 from relieffab.grbl.simulator.settings import Settings
 from relieffab.grbl.simulator.words import Refused, Words, read_words
 
-Point = tuple[float, float, float]
+Point = tuple[float, ...]
 
 _PLANES = {17: (0, 1, 2), 18: (2, 0, 1), 19: (1, 2, 0)}
 _AXIS_COMMANDS = (10.0, 28.0, 28.1, 30.0, 30.1, 92.0, 92.1)
@@ -77,7 +77,8 @@ class Interpreter:
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self.coordinates = Coordinates()
+        self._letters = "XYZA"[: settings.axes]
+        self.coordinates = Coordinates(self._letters)
         self.reset()
 
     def reset(self) -> None:
@@ -96,7 +97,7 @@ class Interpreter:
         Refused
             Before anything of the line is done.
         """
-        words = read_words(line)
+        words = read_words(line, self._letters)
         values = words.values
         if values.pop("N", 0) > _LAST_LINE_NUMBER:
             raise Refused(27)
@@ -116,7 +117,7 @@ class Interpreter:
             if motion not in (None, 80.0):
                 raise Refused(24)
             return other
-        named = any(letter in values for letter in "XYZ")
+        named = any(letter in values for letter in self._letters)
         if motion is None and not named and (self.modal[1] in (0, 1, 80) or not _target(values)):
             return None
         command = self.modal[1] if motion is None else motion
@@ -222,12 +223,11 @@ class Interpreter:
 
     def _goal(self, values: Values, *, machine: bool = False) -> Point:
         relative = self.modal[3] == 91
-        x, y, z = self.coordinates.target(values, machine=machine, relative=relative)
-        return x, y, z
+        return tuple(self.coordinates.target(values, machine=machine, relative=relative))
 
     def _line(self, words: Words, command: float, feed: float) -> list[Action]:
         values = words.values
-        if not ("X" in values or "Y" in values or "Z" in values):
+        if not any(letter in values for letter in self._letters):
             return []
         goal = self._goal(values, machine=words.g.get(0) == 53.0)
         if command == 0:
@@ -242,8 +242,7 @@ class Interpreter:
         axes = u, v, _ = _PLANES[int(self.modal[2])]
         if not any("XYZ"[axis] in values for axis in (u, v)):
             raise Refused(32)
-        x, y, z = self.coordinates.position
-        start, end = (x, y, z), self._goal(values)
+        start, end = tuple(self.coordinates.position), self._goal(values)
         du, dv = end[u] - start[u], end[v] - start[v]
         if "R" in values:
             if du == 0 and dv == 0:
@@ -269,7 +268,7 @@ class Interpreter:
     def jog(self, line: str) -> Move:
         """Interpret what stands behind `$J=`; the modal state stays as it is."""
         kept = (self.modal, self.feed)
-        words = read_words(line)
+        words = read_words(line, self._letters)
         if words.m or not {*words.g.values()} <= {20.0, 21.0, 90.0, 91.0, 53.0}:
             raise Refused(16)
         if "F" not in words.values:
@@ -287,14 +286,14 @@ class Interpreter:
     def _stored_point(self, values: Values, command: float) -> list[Action]:
         """G28, G30: by way of the named axes to the stored point."""
         stored = self.coordinates.systems[command]
-        named = [axis for axis, letter in enumerate("XYZ") if letter in values]
+        named = [axis for axis, letter in enumerate(self._letters) if letter in values]
         if not named:
-            return [Move((stored[0], stored[1], stored[2]), math.inf)]
+            return [Move(tuple(stored), math.inf)]
         via = self._goal(values)
-        x, y, z = (stored[axis] if axis in named else via[axis] for axis in range(3))
-        return [Move(via, math.inf), Move((x, y, z), math.inf)]
+        end = tuple(stored[axis] if axis in named else at for axis, at in enumerate(via))
+        return [Move(via, math.inf), Move(end, math.inf)]
 
 
 def _target(values: Values) -> bool:
     """Whether any word names where a motion goes."""
-    return any(letter in values for letter in "XYZIJKR")
+    return any(letter in values for letter in "XYZAIJKR")

@@ -21,18 +21,22 @@ from relieffab.grbl.simulator.suspend import Suspension
 from relieffab.grbl.simulator.wire import Wire
 
 _CRITICAL = (1, 2)
+# Bytes of the receive buffer, moves looked ahead, lines a second: of 8 bits, and of 32.
+_GRBL, _HAL = (128, 15, 400.0), (1024, 100, 2000.0)
 
 
 class SimulatedGrbl:
-    """A Grbl 1.1h with a machine behind it.
+    """A Grbl 1.1h with a machine behind it, or a grblHAL with a rotary axis A, too.
 
     Parameters
     ----------
     settings : dict, optional
         `$number` -> value over the defaults of simulator/settings.py.
-    rx_buffer, planner_blocks : int
+    axes : int
+        Three; four make it a grblHAL: its greeting, its answers, A in reports and settings.
+    rx_buffer, planner_blocks : int, optional
         Bytes of the receive buffer, moves of the look-ahead.
-    line_rate : float
+    line_rate : float, optional
         Lines the processor reads a second when nothing else holds it up.
     baud : float
     boot : float
@@ -56,18 +60,20 @@ class SimulatedGrbl:
         self,
         *,
         settings: dict[int, float] | None = None,
-        rx_buffer: int = 128,
-        planner_blocks: int = 15,
-        line_rate: float = 400.0,
+        axes: int = 3,
+        rx_buffer: int | None = None,
+        planner_blocks: int | None = None,
+        line_rate: float | None = None,
         baud: float = 115200.0,
         boot: float = 1.6,
         blank: bool = False,
         plate: float = -math.inf,
     ) -> None:
-        self.settings = Settings(settings)
+        buffer, blocks, rate = _GRBL if axes == len("XYZ") else _HAL
+        self.settings = Settings(settings, axes)
         self.interpreter = Interpreter(self.settings)
-        self.planner = Planner(self.settings, planner_blocks)
-        self.wire = Wire(baud, rx_buffer)
+        self.planner = Planner(self.settings, planner_blocks or blocks)
+        self.wire = Wire(baud, rx_buffer or buffer)
         self.overrides = Overrides()
         self.startup = ["", ""]
         self.now = 0.0
@@ -75,14 +81,14 @@ class SimulatedGrbl:
         self.spindle = 0.0
         self._path = array("d")
         self._reports = reports.StatusReports()
-        self._processor = Processor(self, 1.0 / line_rate)
+        self._processor = Processor(self, 1.0 / (line_rate or rate))
         self._booted = boot
         self._boot_seconds = boot
         self._blank = blank
         self.suspension = Suspension(self)
         self.prober = Prober(self, plate)
         self._events: list[tuple[float, int, Callable[[], None]]] = []
-        self.probed = reports.Probed()
+        self.probed = reports.Probed((0.0,) * axes)
         self._dead = self._limited = False
         self.wire.deaf_until = boot
 
@@ -90,7 +96,7 @@ class SimulatedGrbl:
     def path(self) -> list[Point]:
         """Machine positions (mm) at the end of every move made, and at every stop."""
         values = iter(self._path)
-        return list(zip(values, values, values, strict=True))
+        return list(zip(*[values] * self.settings.axes, strict=True))
 
     @property
     def lost(self) -> int:
@@ -198,9 +204,10 @@ class SimulatedGrbl:
     def reboot(self) -> None:
         """Lose power for a moment, or be reset by the port: all but the EEPROM is forgotten."""
         self._restart_quietly()
-        self.planner.set_position((0.0, 0.0, 0.0))
-        self.interpreter.coordinates.position = [0.0, 0.0, 0.0]
-        self.probed = reports.Probed()
+        coordinates = self.interpreter.coordinates
+        coordinates.position = coordinates.nowhere
+        self.planner.set_position(tuple(coordinates.position))
+        self.probed = reports.Probed(tuple(coordinates.position))
         self.state = "Boot"
         self._booted = self.now + self._boot_seconds
         self.wire.deaf_until = self._booted
@@ -236,6 +243,7 @@ class SimulatedGrbl:
         return bool(self.settings[20]) and not all(
             -travel <= value <= 0.0
             for travel, value in zip(self.settings.travel, move.target, strict=True)
+            if travel
         )
 
     def limit_reached(self) -> None:
@@ -249,8 +257,9 @@ class SimulatedGrbl:
     def homed(self) -> None:
         """Stand off the switches, position known."""
         pull = self.settings[27]
-        self.planner.set_position((-pull, -pull, -pull))
-        self.interpreter.coordinates.position = [-pull, -pull, -pull]
+        place = (-pull, -pull, -pull, *self.planner.position[3:])  # A has no switch
+        self.planner.set_position(place)
+        self.interpreter.coordinates.position = list(place)
         self.state = "Idle"
 
     def offset_changed(self) -> None:
@@ -308,7 +317,7 @@ class SimulatedGrbl:
 
     def _greet(self) -> None:
         self.say("")
-        self.say(reports.BANNER)
+        self.say(reports.BANNER if self.settings.axes == len("XYZ") else reports.HAL_BANNER)
         if self.state == "Alarm":
             self.say(reports.LOCKED)
             return

@@ -8,11 +8,13 @@ moves before the last one whose entry speed is the best possible are not looked 
 """
 
 import math
+from collections.abc import Sequence
 
 from relieffab.grbl.simulator.profile import Profile
 from relieffab.grbl.simulator.settings import Settings
 
-Point = tuple[float, float, float]
+Point = tuple[float, ...]
+"""X, Y, Z, mm, and A, degrees, where there is one: a degree plans as a mm."""
 
 SLOWEST = 1.0 / 60.0
 """mm/s: Grbl moves at 1 mm/min at least."""
@@ -40,7 +42,7 @@ class Planner:
 
     Attributes
     ----------
-    position : tuple of 3 float
+    position : tuple of float
         Where the axes were at the last end of a move or stop, machine mm.
     running, holding : bool
         Whether a move runs, and whether a hold is asked for; both: the axes brake.
@@ -52,14 +54,14 @@ class Planner:
         self.settings = settings
         self.size = size
         self.blocks: list[Block] = []
-        self.position: Point = (0.0, 0.0, 0.0)
+        self.position: Point = (0.0,) * settings.axes
         self.end = math.inf
         self.running = False
         self.holding = False
         self._feed_factor = 1.0
         self._rapid_factor = 1.0
-        self._last_steps = (0, 0, 0)
-        self._last_unit: Point = (0.0, 0.0, 0.0)
+        self._last_steps = (0,) * settings.axes
+        self._last_unit: Point = self.position
         self._last_nominal = 0.0
         self._planned = 0
         self._profile = Profile(0.0, 0.0, 0.0, 1.0, 1.0)
@@ -81,13 +83,14 @@ class Planner:
     def add(self, target: Point, feed: float, now: float) -> bool:
         """Queue a straight move at `feed` mm/s (inf: rapid); False where it has no length."""
         steps = self._round(target)
-        sx, sy, sz = self.settings.steps
-        px, py, pz = self._last_steps
-        dx, dy, dz = (steps[0] - px) / sx, (steps[1] - py) / sy, (steps[2] - pz) / sz
-        mm = math.sqrt(dx * dx + dy * dy + dz * dz)
+        way = [
+            (step - last) / per_mm
+            for step, last, per_mm in zip(steps, self._last_steps, self.settings.steps, strict=True)
+        ]
+        mm = math.hypot(*way)
         if mm == 0.0:
             return False
-        unit = (dx / mm, dy / mm, dz / mm)
+        unit = tuple(part / mm for part in way)
         block = Block(self._point(steps), unit, mm, feed)
         block.acceleration = _along(self.settings.acceleration, unit)
         block.fastest = _along(self.settings.max_rate, unit)
@@ -157,8 +160,8 @@ class Planner:
         if self.running:
             covered, speed = self._profile.at(now - self._began)
             left -= covered
-        (x, y, z), (ux, uy, uz) = block.target, block.unit
-        return (x - ux * left, y - uy * left, z - uz * left), speed
+        place = tuple(p - u * left for p, u in zip(block.target, block.unit, strict=True))
+        return place, speed
 
     def _nominal(self, block: Block) -> None:
         wanted = (
@@ -169,14 +172,14 @@ class Planner:
     def _corner(self, unit: Point) -> float:
         """Square of the speed at which the corner from the last move may be taken."""
         last = self._last_unit
-        cosine = -(last[0] * unit[0] + last[1] * unit[1] + last[2] * unit[2])
+        cosine = -sum(a * b for a, b in zip(last, unit, strict=True))
         if cosine > STRAIGHT:
             return 0.0
         if cosine < -STRAIGHT:
             return math.inf
-        x, y, z = unit[0] - last[0], unit[1] - last[1], unit[2] - last[2]
-        norm = math.sqrt(x * x + y * y + z * z)
-        acceleration = _along(self.settings.acceleration, (x / norm, y / norm, z / norm))
+        turn = [b - a for a, b in zip(last, unit, strict=True)]
+        norm = math.hypot(*turn)
+        acceleration = _along(self.settings.acceleration, [part / norm for part in turn])
         half_sine = math.sqrt(0.5 * (1.0 - cosine))
         return acceleration * self.settings.junction_deviation * half_sine / (1.0 - half_sine)
 
@@ -246,21 +249,13 @@ class Planner:
         self.running, self._began = True, now
         self.end = now + self._profile.seconds
 
-    def _round(self, point: Point) -> tuple[int, int, int]:
-        sx, sy, sz = self.settings.steps
-        return round(point[0] * sx), round(point[1] * sy), round(point[2] * sz)
+    def _round(self, point: Point) -> tuple[int, ...]:
+        return tuple(round(p * steps) for p, steps in zip(point, self.settings.steps, strict=True))
 
-    def _point(self, steps: tuple[int, int, int]) -> Point:
-        sx, sy, sz = self.settings.steps
-        return steps[0] / sx, steps[1] / sy, steps[2] / sz
+    def _point(self, steps: tuple[int, ...]) -> Point:
+        return tuple(n / per_mm for n, per_mm in zip(steps, self.settings.steps, strict=True))
 
 
-def _along(limits: Point, unit: Point) -> float:
+def _along(limits: Point, unit: Sequence[float]) -> float:
     """Largest value along `unit` that exceeds no axis limit."""
-    x, y, z = unit
-    best = abs(limits[0] / x) if x else math.inf
-    if y:
-        best = min(best, abs(limits[1] / y))
-    if z:
-        best = min(best, abs(limits[2] / z))
-    return best
+    return min(abs(limit / part) for limit, part in zip(limits, unit, strict=True) if part)

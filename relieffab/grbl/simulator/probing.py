@@ -67,8 +67,7 @@ class Prober:
         share = (start[2] - self._plate) / fall if fall else math.inf
         if not 0.0 <= share <= 1.0:
             return target
-        x, y, z = (a + share * (b - a) for a, b in zip(start, target, strict=True))
-        return x, y, z
+        return tuple(a + share * (b - a) for a, b in zip(start, target, strict=True))
 
     def _end(self, wanted: Probe) -> None:
         machine, self._probing = self._machine, False

@@ -8,29 +8,36 @@ from relieffab.grbl.simulator.wire import Wire
 
 HELP = "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]"
 BANNER = "Grbl 1.1h ['$' for help]"
+HAL_BANNER = "GrblHAL 1.1f ['$' or '$HELP' for help]"
 LOCKED = "[MSG:'$H'|'$X' to unlock]"
 
 
 def point(values: Sequence[float], *, inches: bool = False) -> str:
-    """Three coordinates, mm or inches ($13)."""
-    if inches:
-        return ",".join(f"{value / 25.4:.4f}" for value in values)
-    return ",".join(f"{value:.3f}" for value in values)
+    """Coordinates, mm or inches ($13); A in degrees."""
+    return ",".join(
+        f"{value / 25.4:.4f}" if inches and axis < len("XYZ") else f"{value:.3f}"
+        for axis, value in enumerate(values)
+    )
 
 
-def build_info(wire: Wire, blocks: int) -> list[str]:
+def build_info(wire: Wire, blocks: int, axes: int = 3) -> list[str]:
     """`$I`."""
+    if axes > len("XYZ"):
+        names = [f"[AXS:{axes}:XYZA]", "[NEWOPT:RT+]", "[FIRMWARE:grblHAL]"]
+        return ["[VER:1.1f.20240330:]", f"[OPT:V,{blocks},{wire.size},{axes},0]", *names]
     return ["[VER:1.1h.20190825:]", f"[OPT:V,{blocks},{wire.size}]"]
 
 
 def offsets(interpreter: Interpreter, probed: "Probed", *, inches: bool) -> list[str]:
     """`$#`."""
     systems = interpreter.coordinates.systems
-    length = interpreter.coordinates.tool_length
+    tool = [interpreter.coordinates.tool_length]
+    if turning := interpreter.coordinates.letters[3:]:
+        tool = [0.0, 0.0, *tool, *[0.0] * len(turning)]
     return [
         *(f"[G{number:g}:{point(zero, inches=inches)}]" for number, zero in systems.items()),
         f"[G92:{point(interpreter.coordinates.g92, inches=inches)}]",
-        f"[TLO:{point([length], inches=inches)}]",
+        f"[TLO:{point(tool, inches=inches)}]",
         probed.line(inches=inches),
     ]
 
@@ -39,7 +46,7 @@ def offsets(interpreter: Interpreter, probed: "Probed", *, inches: bool) -> list
 class Probed:
     """Where the probe touched last, machine mm, and whether it did."""
 
-    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    place: tuple[float, ...] = (0.0, 0.0, 0.0)
     touched: bool = False
 
     def line(self, *, inches: bool) -> str:

@@ -2,7 +2,7 @@
 
 from relieffab.grbl.simulator.words import Refused
 
-Point = tuple[float, float, float]
+Point = tuple[float, ...]
 
 DEFAULTS: dict[int, float] = {
     0: 10, 1: 25, 2: 0, 3: 0, 4: 0, 5: 0, 6: 0, 10: 3, 11: 0.010, 12: 0.002, 13: 0,
@@ -10,7 +10,9 @@ DEFAULTS: dict[int, float] = {
     100: 800, 101: 800, 102: 800, 110: 1600, 111: 1600, 112: 800,
     120: 30, 121: 30, 122: 30, 130: 263, 131: 157, 132: 34,
 }  # fmt: skip
-_DECIMALS = {11, 12, 24, 25, 27, *range(100, 133)}
+ROTARY: dict[int, float] = {103: 88.889, 113: 7200, 123: 360, 133: 0}
+"""Of an axis A: steps a degree, degrees/min, degrees/s², no end to its turning."""
+_DECIMALS = {11, 12, 24, 25, 27, *range(100, 134)}
 
 
 class Settings:
@@ -20,21 +22,25 @@ class Settings:
     ----------
     changes : dict, optional
         Number -> value, over the defaults.
+    axes : int
+        Three, or four with A, which turns: degrees for mm in all that follows.
 
     Attributes
     ----------
-    steps : tuple of 3 float
+    steps : tuple of float
         Steps per mm.
-    max_rate, acceleration : tuple of 3 float
+    max_rate, acceleration : tuple of float
         mm/s and mm/s².
-    travel : tuple of 3 float
-        mm.
+    travel : tuple of float
+        mm; 0 where there is no end to it.
     junction_deviation, arc_tolerance : float
         mm.
     """
 
-    def __init__(self, changes: dict[int, float] | None = None) -> None:
-        self.values = dict(DEFAULTS)
+    def __init__(self, changes: dict[int, float] | None = None, axes: int = 3) -> None:
+        self.axes = axes
+        self._defaults = DEFAULTS | (ROTARY if axes > len("XYZ") else {})
+        self.values = dict(self._defaults)
         for number, value in (changes or {}).items():
             self.change(number, value)
         self._read()
@@ -56,7 +62,7 @@ class Settings:
 
     def restore(self) -> None:
         """Go back to the defaults."""
-        self.values = dict(DEFAULTS)
+        self.values = dict(self._defaults)
         self._read()
 
     def __getitem__(self, number: int) -> float:
@@ -71,12 +77,11 @@ class Settings:
 
     def _read(self) -> None:
         self.steps = self._axes(100)
-        x, y, z = self._axes(110)
-        self.max_rate = (x / 60.0, y / 60.0, z / 60.0)
+        self.max_rate = tuple(rate / 60.0 for rate in self._axes(110))
         self.acceleration = self._axes(120)
         self.travel = self._axes(130)
         self.junction_deviation = self.values[11]
         self.arc_tolerance = self.values[12]
 
     def _axes(self, first: int) -> Point:
-        return self.values[first], self.values[first + 1], self.values[first + 2]
+        return tuple(self.values[first + axis] for axis in range(self.axes))

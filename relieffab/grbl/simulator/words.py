@@ -24,7 +24,7 @@ M_GROUPS: dict[int, int] = {
     **dict.fromkeys((3, 4, 5), 7),
     **dict.fromkeys((8, 9), 8),
 }
-VALUES = "FIJKLNPRSTXYZ"
+VALUES = "FIJKLNPRST"
 _NEVER_NEGATIVE = "FNPST"
 
 
@@ -55,7 +55,7 @@ class Words:
     values: dict[str, float] = field(default_factory=dict)
 
 
-def read_words(line: str) -> Words:
+def read_words(line: str, axes: str = "XYZ") -> Words:
     """Sort a line without spaces and comments into words, or refuse it as Grbl does."""
     words = Words()
     for letter, number in _WORD.findall(line, 0, _well_formed(line)):
@@ -67,7 +67,7 @@ def read_words(line: str) -> Words:
                 raise Refused(23)
             _put(words.m, M_GROUPS, int(value))
         else:
-            _value(words, letter, value)
+            _value(words, letter, value, axes)
     return words
 
 
@@ -89,8 +89,8 @@ def _put(into: dict, groups: dict, code: float) -> None:
     into[group] = code
 
 
-def _value(words: Words, letter: str, value: float) -> None:
-    if letter not in VALUES:
+def _value(words: Words, letter: str, value: float, axes: str) -> None:
+    if letter not in VALUES and letter not in axes:
         raise Refused(20)
     if letter in words.values:
         raise Refused(25)

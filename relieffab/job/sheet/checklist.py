@@ -43,7 +43,7 @@ def _second(report: Mapping[str, Any]) -> str:
 
 
 def _flat(report: Mapping[str, Any], stock: Stock, held: str) -> Iterator[str]:
-    yield f"{held}, flat, its face up."
+    yield f"{held}, {'on its flat back' if stock.curve else 'flat'}, its face up."
     if stock.frame:
         yield f"Frame: {mm(stock.frame.width)} mm wide, made before (frame.step, stock.step)."
     safe = mm(report["machine"]["safe_height"])

@@ -39,7 +39,8 @@ def drawings(
         The relief from above.
     """
     if isinstance(bent, Curved):
-        return [("From the near side, to scale", curved.draw(bent, depth))]
+        near = ("From the near side, to scale", curved.draw(bent, depth))
+        return [*_plans(report, stock, None), near] if report.get("programs") else [near]
     plans = _plans(report, stock, kept)
     if bent is None:
         side = section.draw(stock, depth, report.get("machine"))

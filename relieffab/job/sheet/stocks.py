@@ -33,7 +33,10 @@ def zero(stock: Stock) -> str:
             f"{mm(x)} mm along the axis from the figure's top, {mm(y)} mm round the face from its "
             f"right edge, {level}; the stock is {mm(2 * stock.radius)} mm thick and turns about X"
         )
-    level = "on the stock's face" if z == 0 else "under the stock, on the table"
+    face = (
+        "on the middle of the stock's face, its highest" if stock.curve else "on the stock's face"
+    )
+    level = face if z == 0 else "under the stock, on the table"
     if x == 0 and y == 0:
         return f"the stock's near left corner, {level}"
     return f"{mm(x)} mm right and {mm(y)} mm up from the stock's near left corner, {level}"

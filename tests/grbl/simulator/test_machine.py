@@ -39,6 +39,45 @@ def test_the_report_has_the_documented_fields(bench):
     assert third == "<Idle|MPos:0.000,0.000,0.000|Bf:15,128|FS:0,0>"
 
 
+def test_a_fourth_axis_shows_in_every_answer_of_a_grblhal(new_bench):
+    bench = new_bench(axes=4)
+    assert bench.said[-1] == "GrblHAL 1.1f ['$' or '$HELP' for help]"
+    told = bench.tell("$I")
+    assert told[1:3] == ["[OPT:V,100,1024,4,0]", "[AXS:4:XYZA]"]
+    assert {"$103=88.889", "$113=7200.000", "$123=360.000", "$133=0.000"} < set(bench.tell("$$"))
+    bench.tell("G10L20P1A-90")
+    told = bench.tell("$#")
+    assert told[0] == "[G54:0.000,0.000,0.000,90.000]"
+    assert told[-3:-1] == ["[TLO:0.000,0.000,0.000,0.000]", "[PRB:0.000,0.000,0.000,0.000:0]"]
+    (report,) = bench.tell(b"?")
+    assert "|MPos:0.000,0.000,0.000,0.000|Bf:100,1024|" in report
+    assert report.endswith("WCO:0.000,0.000,0.000,90.000>")
+
+
+def test_a_fourth_axis_keeps_its_rates_and_the_time_of_its_moves(new_bench):
+    bench = new_bench(axes=4, settings={113: 600, 103: 100})
+    assert bench.tell("G93G1X3A4F60", 0.5) == ["ok"]
+    assert bench.machine.planner.blocks[0].feed == 5.0  # of 5 mm and degrees in a second
+    assert bench.wait(4.0).machine.path == [(3.0, 0.0, 0.0, 4.0)]
+    bench.tell("G0A64", 0.0)
+    start = bench.machine.now
+    while bench.machine.busy:
+        bench.machine.step(start + 60.0)
+    # 60 degrees at 10 a second, and the ramps of 360 a second squared.
+    assert bench.machine.now - start == pytest.approx(6 + 10 / 360, abs=0.02)
+    assert bench.tell("G94G1A0")[-1] == "error:22"
+    # A turns on and on: only X, Y, Z have ends.
+    bench.machine.settings.change(22, 1)
+    bench.machine.settings.change(20, 1)
+    assert bench.tell("G53G0X-1Y-1Z-1A720", 90.0) == ["ok"]
+    assert bench.state() == "Idle"
+
+
+def test_three_axes_know_no_fourth(bench):
+    assert bench.tell("G0A1") == ["error:20"]
+    assert bench.tell("$103=9") == ["error:3"]
+
+
 def test_crlf_gives_two_acknowledgements(bench):
     assert bench.tell(b"G21\r\n") == ["ok", "ok"]
 

@@ -31,3 +31,10 @@ def test_measures_are_those_of_its_form():
     assert measures(Stock(60, 45, board.wall), board) == (
         f"{sides((60, 45, 12))}, its face curved along X with a radius of 120 mm"
     )
+
+
+def test_a_curved_board_has_its_zero_where_it_is_highest():
+    board = Stock(58, 45, 12, curve=120)
+    assert zero(board) == (
+        "the stock's near left corner, on the middle of the stock's face, its highest"
+    )
