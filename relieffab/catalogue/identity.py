@@ -19,7 +19,7 @@ def key_of(settings: Mapping[str, Chosen]) -> str:
     """Hash all that decides a job's result but the model's own bytes.
 
     That is the version, the values of the settings, however they were typed, what the
-    profiles hold that they name, and what is in a mask.
+    profiles hold that they name, and what is in a mask and a depth map.
 
     Returns
     -------
@@ -33,8 +33,8 @@ def key_of(settings: Mapping[str, Chosen]) -> str:
     """
     job = job_of(settings)
     values = [(name, choice.value) for name, choice in settings.items() if name not in FILES]
-    mask = _hash(Path(job.mask)) if job.mask else None
-    told = repr((__version__, values, _profiles(job), mask))
+    beside = [_hash(Path(path)) if path else None for path in (job.mask, job.depth_map)]
+    told = repr((__version__, values, _profiles(job), beside))
     return hashlib.sha256(told.encode()).hexdigest()
 
 

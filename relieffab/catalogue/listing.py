@@ -7,6 +7,7 @@ from pathlib import Path
 from relieffab.catalogue.lists import LISTS, Wanted, of_model, read_list, wants_jobs
 from relieffab.errors import InputError
 from relieffab.job.folder import REPORT
+from relieffab.job.load import FILES
 from relieffab.layers.content import MESH, PICTURE, SVG, content_of
 from relieffab.layers.mesh import USUAL_UP
 
@@ -66,8 +67,8 @@ def _of_folder(folder: Path, output: Path) -> list[Wanted]:
 
 
 def _named(job: Wanted) -> list[Path]:
-    """Name the files that a job takes: its model, and what else of pictures it names."""
-    values = [job.model, *(values.get("mask") for _, values in job.files)]
+    """Name the files that a job takes: its model, a mask, a depth map."""
+    values = [job.model, *(values.get(name) for _, values in job.files for name in FILES)]
     return [Path(value) for value in values if value]
 
 

@@ -12,7 +12,7 @@ from relieffab.job.settings import Chosen, resolve
 from relieffab.job.table import SETTINGS
 
 PREFIX = "RELIEFFAB_"
-FILES = ("model", "mask")
+FILES = ("model", "mask", "depth_map")
 """Settings that name a file."""
 
 Source = tuple[str, Mapping[str, Any]]

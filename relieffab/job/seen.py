@@ -25,7 +25,7 @@ Part = dict[str, Any]
 Model = Mesh | Picture | Art
 
 _OF_MESHES = ("azimuth", "elevation", "up")
-_OF_PICTURES = ("image", "image_depth", "mask")
+_OF_PICTURES = ("image", "image_depth", "mask", "depth_map")
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ def _picture(picture: Picture, job: Job, part: Part) -> Seen:
         Grid.on_panel(job.size, job.resolution),
         job.size,
         margin=looking.margin_of(job),
-        showing=Showing(job.image, job.mask, job.image_depth),
+        showing=Showing(job.image, job.mask, job.image_depth, job.depth_map),
         drawing=looking.drawing_of(job),
     )
     facts = {**seen.facts, "width": picture.shape[1], "height": picture.shape[0]}

@@ -22,6 +22,7 @@ class Job:
     image: str | None
     image_depth: float | None
     mask: str | None
+    depth_map: str | None
     size: tuple[float, float]
     thickness: float
     outline: Kind

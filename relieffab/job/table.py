@@ -53,6 +53,7 @@ SETTINGS = (
         "of a depth map, farthest to nearest on the panel; half the figure's shorter side",
     ),
     Setting("mask", str, "", "picture of a picture's figure, which is white"),
+    Setting("depth_map", str, "", "depth map that goes with a normal map, of the same figure"),
     Setting("size", readers.size, "120x90mm", "panel, width x height"),
     Setting("thickness", readers.positive, "12mm", "of the stock"),
     Setting("outline", readers.outline, "rectangle", "of the panel: rectangle, round or arched"),

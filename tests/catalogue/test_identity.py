@@ -30,14 +30,15 @@ def test_another_version_and_another_profile_are_another_job(monkeypatch):
     assert key() != before
 
 
-def test_a_mask_counts_by_what_is_in_it(tmp_path):
+@pytest.mark.parametrize("setting", ["mask", "depth_map"])
+def test_a_picture_beside_the_model_counts_by_what_is_in_it(tmp_path, setting):
     mask, copy = tmp_path / "mask.png", tmp_path / "copy.png"
     mask.write_bytes(b"a figure")
     copy.write_bytes(b"a figure")
-    before = key(mask=str(mask))
-    assert before == key(mask=str(copy)) != key()
+    before = key(**{setting: str(mask)})
+    assert before == key(**{setting: str(copy)}) != key()
     mask.write_bytes(b"another")
-    assert before != key(mask=str(mask))
+    assert before != key(**{setting: str(mask)})
 
 
 @pytest.fixture

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.layers.art.art import Art, Mark, Ring
+from relieffab.layers.art.clip import clipped
 from relieffab.layers.art.curves import FINE, ring
+from relieffab.layers.art.tree import CLIP, CLIPPED, make_plain
 
 Floats = NDArray[np.float64]
 
@@ -24,10 +26,10 @@ _LENGTH = re.compile(r"^\s*[+]?[\d.]+(?:e[+-]?\d+)?\s*(mm|cm|in|pt|pc|q)\s*$", r
 
 
 def read_svg(path: str | Path) -> Art:
-    """Read the paths of an SVG: shapes, transforms, `use`, viewBox, styles.
+    """Read the paths of an SVG: shapes, transforms, `use`, symbols, clips, viewBox, styles.
 
-    Fills as light as paper cover what lies under them; text, pictures and scripts
-    are left out, and said so.
+    Fills as light as paper cover what lies under them; text, pictures, scripts and
+    masks are left out, and said so.
 
     Raises
     ------
@@ -44,8 +46,10 @@ def read_svg(path: str | Path) -> Art:
             where=where,
         )
     root = _parsed(path.read_bytes(), where)
-    notes = _left_out(root)
-    marks = _marks(root, where)
+    notes = make_plain(root)
+    shapes, plainer = _shapes(root, where)
+    notes += plainer
+    marks = _marks(shapes, where)
     if not marks:
         why = f" ({'; '.join(notes)})" if notes else ""
         raise InputError(
@@ -54,7 +58,7 @@ def read_svg(path: str | Path) -> Art:
             where=where,
             hint="turn text into paths where it was drawn; give a picture as a picture",
         )
-    return Art(marks, _page(root), path.name, "svg", notes)
+    return Art(marks, _page(root), path.name, "svg", tuple(notes))
 
 
 def _parsed(data: bytes, where: str) -> Any:
@@ -77,29 +81,6 @@ def _parsed(data: bytes, where: str) -> Any:
     return root
 
 
-def _left_out(root: Any) -> tuple[str, ...]:
-    """Take out what is not drawn, and say what that was."""
-    from lxml import etree
-
-    notes = []
-    for name, said in (
-        ("script", "scripts left out"),
-        ("text", "texts left out: only paths are carved"),
-        ("image", "pictures left out: only paths are carved"),
-        ("foreignObject", "foreign objects left out"),
-    ):
-        found = list(root.iter("{*}" + name))
-        for element in found:
-            if element.getparent() is not None:
-                element.getparent().remove(element)
-        if found:
-            notes.append(f"{len(found)} {said}")
-    clipped = sum(1 for e in root.iter(etree.Element) if e.get("clip-path") or e.get("mask"))
-    if clipped:
-        notes.append(f"{clipped} clips or masks were not applied")
-    return tuple(notes)
-
-
 def _page(root: Any) -> tuple[float, float] | None:
     """Width and height of the page, mm, if both are in a unit of length."""
     from svgelements import Length
@@ -111,15 +92,15 @@ def _page(root: Any) -> tuple[float, float] | None:
     return (width, height) if width > 0 and height > 0 else None
 
 
-def _marks(root: Any, where: str) -> tuple[Mark, ...]:
+def _shapes(root: Any, where: str) -> tuple[list[tuple[Any, Any]], list[str]]:
+    """Read the shapes and their paths, in order; and name what is not drawn as it is painted."""
     from lxml import etree
     from svgelements import SVG, Path, Shape
 
     try:
         page = SVG.parse(io.BytesIO(etree.tostring(root)), reify=True, ppi=MM)
-        found = [
-            (shape, Path(shape).reify()) for shape in page.elements() if isinstance(shape, Shape)
-        ]
+        elements = list(page.elements())
+        shapes = [(each, Path(each).reify()) for each in elements if isinstance(each, Shape)]
     except (
         ValueError,
         TypeError,
@@ -133,21 +114,76 @@ def _marks(root: Any, where: str) -> tuple[Mark, ...]:
             found=f"{type(fault).__name__}: {fault}"[:200],
             where=where,
         ) from fault
-    contours = [_contours(outline) for _, outline in found]
-    every = [curve for group in contours for curves, _ in group for curve in curves]
+    return shapes, _plainer(elements, [shape for shape, _ in shapes if not _hidden(shape)])
+
+
+def _plainer(elements: list[Any], seen: list[Any]) -> list[str]:
+    """Say what is drawn more plainly than it is painted."""
+    by_sheet = [e for e in elements if _told(e, "clip-path") or _told(e, "mask")]
+    counts = (
+        (by_sheet, "clips or masks of a style sheet are not applied"),
+        ([e for e in seen if _told(e, "fill").startswith("url(")],
+         "gradients or patterns taken for a dark fill"),
+        ([e for e in seen if _told(e, "stroke-dasharray")], "dashed lines drawn whole"),
+        ([e for e in seen if _told(e, "filter")], "filters are not applied"),
+        ([e for e in seen if any(_told(e, f"marker-{at}") for at in ("start", "mid", "end"))],
+         "lines without their markers"),
+    )  # fmt: skip
+    return [f"{len(some)} {said}" for some, said in counts if some]
+
+
+def _told(element: Any, name: str) -> str:
+    """Return a property of an element, from wherever it has it; empty if none."""
+    word = str(getattr(element, "values", {}).get(name) or "").strip()
+    return "" if word == "none" else word
+
+
+def _hidden(shape: Any) -> bool:
+    opacity = _told(shape, "opacity").rstrip("%")
+    unseen = _told(shape, "visibility") in ("hidden", "collapse")
+    return unseen or (opacity != "" and float(opacity) == 0.0)
+
+
+def _marks(shapes: list[tuple[Any, Any]], where: str) -> tuple[Mark, ...]:
+    contours = [_contours(outline) for _, outline in shapes]
+    every = [
+        curve
+        for (shape, _), group in zip(shapes, contours, strict=True)
+        if CLIP not in shape.values
+        for curves, _ in group
+        for curve in curves
+    ]
     if not every:
         return ()
     points = np.concatenate(every)
     if not np.isfinite(points).all():
         raise InputError("the SVG has coordinates that are not numbers", where=where)
     tolerance = FINE * float(np.ptp(points, axis=0).max()) or FINE
-    marks = []
-    for (shape, _), group in zip(found, contours, strict=True):
-        rings = [ring(curves, tolerance, closed=closed) for curves, closed in group]
-        mark = _mark(shape, tuple(one for one in rings if one is not None))
-        if mark is not None:
-            marks.append(mark)
+    marks: list[Mark] = []
+    regions: dict[str, list[Mark]] = {}
+    last = None
+    for (shape, _), group in zip(shapes, contours, strict=True):
+        found = (ring(curves, tolerance, closed=closed) for curves, closed in group)
+        rings = tuple(one for one in found if one is not None)
+        number = shape.values.get(CLIP)
+        if number is None:
+            marks += _within(_mark(shape, rings), shape, regions)
+        elif rings and not _hidden(shape):
+            before = regions[number] if number == last else []
+            rule = "evenodd" if _told(shape, "clip-rule") == "evenodd" else "nonzero"
+            regions[number] = [*before, Mark(rings, fill=rule)]
+        last = number
     return tuple(marks)
+
+
+def _within(mark: Mark | None, shape: Any, regions: dict[str, list[Mark]]) -> list[Mark]:
+    """Cut a mark to all the clips that it is in."""
+    left = [mark] if mark is not None else []
+    for name in shape.values:
+        if str(name).startswith(CLIPPED):
+            region = regions.get(str(name).removeprefix(CLIPPED), [])
+            left = [part for one in left for part in clipped(one, region)]
+    return left
 
 
 def _contours(path: Any) -> list[tuple[list[Floats], bool]]:
@@ -187,7 +223,7 @@ def _mark(shape: Any, rings: tuple[Ring, ...]) -> Mark | None:
     rule = shape.values.get("fill-rule", "nonzero")
     width = float(shape.implicit_stroke_width or 0.0)
     drawn = stroke is not None and stroke < PAPER and width > 0
-    if not rings or (fill is None and not drawn):
+    if not rings or _hidden(shape) or (fill is None and not drawn):
         return None
     return Mark(
         rings,

@@ -106,15 +106,28 @@ def integrate(
         mm, the nearest point of every part of the figure at 0 where there is no
         reference; 0 outside.
     """
-    level = 1.0 / np.sqrt(1.0 + slopes[0] ** 2 + slopes[1] ** 2)
-    gx = pitch * _chords((slopes[0] * mask).T, level.T).T
-    gy = -pitch * _chords(slopes[1] * mask, level)
+    gx, gy = steps_between(slopes, mask, pitch)
     wx, wy = (mask[:, 1:] & mask[:, :-1]).astype(float), (mask[1:] & mask[:-1]).astype(float)
     screen = (pitch / length) ** 2
     lean = np.zeros(mask.shape) if reference is None else np.where(mask, reference, 0.0)
     rhs = -_divergence(wx * gx, wy * gy, mask.shape) + screen * lean
     z = _solve(wx, wy, rhs, screen, lean, tolerance)
     return _levelled(z, mask) if reference is None else np.where(mask, z, 0.0)
+
+
+def steps_between(slopes: Floats, mask: Bools, pitch: float) -> tuple[Floats, Floats]:
+    """Return the steps of depth that slopes ask for, from each pixel to the next.
+
+    Returns
+    -------
+    across : (rows, cols - 1) ndarray
+        To the right neighbour, mm.
+    down : (rows - 1, cols) ndarray
+        To the lower one, mm.
+    """
+    level = 1.0 / np.sqrt(1.0 + slopes[0] ** 2 + slopes[1] ** 2)
+    across = pitch * _chords((slopes[0] * mask).T, level.T).T
+    return across, -pitch * _chords(slopes[1] * mask, level)
 
 
 def _chords(slope: Floats, level: Floats) -> Floats:

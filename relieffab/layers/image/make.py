@@ -13,11 +13,20 @@ from relieffab.layers.image.bands import repair
 from relieffab.layers.image.edges import draw
 from relieffab.layers.image.figure import find_figure
 from relieffab.layers.image.fit import Fit, fit_on
+from relieffab.layers.image.guide import guided
 from relieffab.layers.image.ink import ink_layers
 from relieffab.layers.image.integrate import integrate
 from relieffab.layers.image.kind import check_shown, kind_of
-from relieffab.layers.image.names import DEPTH, DEPTH_FAR, DRAWING, NORMAL_DOWN, PHOTO
+from relieffab.layers.image.names import (
+    DEPTH,
+    DEPTH_FAR,
+    DRAWING,
+    NORMAL,
+    NORMAL_DOWN,
+    PHOTO,
+)
 from relieffab.layers.image.picture import Picture
+from relieffab.layers.image.rims import rim_length
 from relieffab.layers.image.scale import to_length, white_is_far
 from relieffab.layers.image.shape import brightness, shape_of
 from relieffab.layers.image.steps import normals_of, slopes_of
@@ -29,6 +38,10 @@ from relieffab.layers.shading import default_lights, lambert
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Facts = dict[str, Any]
+
+
+DOUBTFUL = 0.75
+"""Likeness of a depth map to its normals under which a person is told."""
 
 
 @dataclass(frozen=True)
@@ -44,11 +57,14 @@ class Showing:
     deep : float or None
         Of a depth map, from its farthest to its nearest point as large as the
         figure stands on the panel, mm; half the figure's shorter side if not given.
+    depth_map : str or None
+        The file of a depth map that goes with a normal map.
     """
 
     kind: str | None = None
     mask: str | None = None
     deep: float | None = None
+    depth_map: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +95,18 @@ class Seen:
         if bands:
             found.append(
                 f"{bands['levels']} levels of {bands['step_mm']:.3f} mm smoothed within half a step"
+            )
+        hidden = self.facts.get("hidden_edges_mm", 0.0)
+        if hidden > 0:
+            found.append(
+                f"{hidden:.0f} mm of edges behind which the figure may hide part of itself: how "
+                "deep the step is there is a guess, for no normal tells; --depth-map would"
+            )
+        beside = self.facts.get("depth_map")
+        if beside and beside["alike"] < DOUBTFUL:
+            found.append(
+                f"the depth map's slopes are like the normals' by {beside['alike']:.2f} of 1 only: "
+                "it is noisy, or its greys are not even with depth"
             )
         if self.facts.get("light_fit", 1.0) < 0.3:
             found.append("its shading does not tell its form well: look at the relief")
@@ -120,6 +148,13 @@ def layers_of_picture(
     check_shown(picture)
     kind = showing.kind or kind_of(picture)
     facts: Facts = {"kind": kind, "kind_by": "setting" if showing.kind else "values"}
+    if showing.depth_map and kind not in (NORMAL, NORMAL_DOWN):
+        raise InputError(
+            "--depth-map goes with a normal map alone",
+            found=f"a picture taken for a {kind}",
+            where=picture.name,
+            hint="--image normal if it is one; a depth map alone is the model itself",
+        )
     if kind == DRAWING:
         layers, fit = ink_layers(picture, grid, size, margin, drawing)
         return Seen(layers, fit, facts)
@@ -136,7 +171,8 @@ def layers_of_picture(
         grey = fit.field(brightness(picture), mask)
         depth, normals = shape_of(grey, there, grid.pitch, facts)
     else:
-        depth, normals = _of_normals(picture, mask, kind, fit, there, facts)
+        normals = _normals(picture, mask, kind, fit, there, facts)
+        depth = _of_normals(normals, mask, showing, fit, there, facts)
     bare = _assemble(grid, depth, normals, there)
     strokes = draw(bare, drawing, grey)
     ink = line_image([s for s in strokes if not s.light], grid, width=drawing.width)
@@ -189,10 +225,10 @@ def _of_depth(
     return depth, normals_of(slopes_of(depth, there, pitch), there)
 
 
-def _of_normals(
+def _normals(
     picture: Picture, mask: Bools, kind: str, fit: Fit, there: Bools, facts: Facts
-) -> tuple[Floats, Floats]:
-    """Depth by integration, and the normals themselves."""
+) -> Floats:
+    """Take unit normals on the grid; says which way their green points."""
     vectors = normalmap.vectors_of(picture)
     way, by = normalmap.convention(vectors, mask)
     if kind == NORMAL_DOWN:
@@ -205,10 +241,25 @@ def _of_normals(
             found=f"{1 - facing.sum() / mask.sum():.0%} of the figure below",
             where=picture.name,
         )
+    facts |= {"green": way, "green_by": by}
     sampled = np.stack([fit.field(np.nan_to_num(vectors[..., k]), mask) for k in range(3)], -1)
-    normals = normalmap.unit_normals(sampled, there, way)
-    steep = normals[..., :2] / normals[..., 2:]
+    return normalmap.unit_normals(sampled, there, way)
+
+
+def _of_normals(
+    normals: Floats, mask: Bools, showing: Showing, fit: Fit, there: Bools, facts: Facts
+) -> Floats:
+    """Find the depth by integration, or with a depth map beside the normals."""
     pitch = fit.grid.pitch
-    depth = integrate(-np.moveaxis(steep, 2, 0), there, pitch)
-    facts |= {"green": way, "green_by": by, "depth_mm": float(np.ptp(depth[there]))}
-    return depth, normals
+    if showing.depth_map:
+        if showing.deep is not None:
+            raise InputError(
+                "--image-depth says nothing of a depth map beside a normal map: its normals say it",
+                where=showing.depth_map,
+            )
+        depth, facts["depth_map"] = guided(showing.depth_map, mask, fit, normals, there)
+    else:
+        depth = integrate(-np.moveaxis(normals[..., :2] / normals[..., 2:], 2, 0), there, pitch)
+        facts["hidden_edges_mm"] = rim_length(normals, there, pitch)
+    facts["depth_mm"] = float(np.ptp(depth[there]))
+    return depth

@@ -39,6 +39,8 @@ _BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError, Typ
 _PLAIN = (1, 8, 32946, 32773)
 """Compressions of TIFF that need no library of their own: none, deflate, packed bits."""
 _CMYK = 5
+_ORIENTATION = 0x0112
+"""In EXIF."""
 
 
 def picture_format(start: bytes) -> str | None:
@@ -131,12 +133,15 @@ def _pillow(path: Path) -> _Read:
             frames = getattr(raw, "n_frames", 1)
             if frames > 1:
                 raise _several(frames, "pictures", str(path))
-            wide = any("16" in str(tile[3]) for tile in raw.tile) and raw.mode in ("RGB", "RGBA")
+            wide = any("16" in str(tile[3]) for tile in raw.tile) and "I" not in raw.mode
+            turned = raw.getexif().get(_ORIENTATION, 1) != 1
+            if wide and raw.format == "PNG":
+                return _wide_png(path, turned=turned)
             raw.load()
             image = ImageOps.exif_transpose(raw)
     except (Image.DecompressionBombError, UnidentifiedImageError) as fault:
         raise ValueError(str(fault)) from fault
-    notes = ("its 16 bits a channel were read as 8: a TIFF keeps them",) if wide else ()
+    notes = ("its 16 bits a channel were read as 8: a PNG or TIFF keeps them",) if wide else ()
     mode = image.mode
     if mode == "F":
         return np.asarray(image), None, None, notes
@@ -154,6 +159,19 @@ def _pillow(path: Path) -> _Read:
         image = image.convert("RGBA")
     values, alpha = _split(np.asarray(image), 255.0)
     return values, alpha, 1 if mode == "1" else 8, notes
+
+
+def _wide_png(path: Path, *, turned: bool) -> _Read:
+    """Read a PNG's colours of 16 bits, of which Pillow keeps 8; its size is checked."""
+    import imagecodecs
+
+    try:
+        array = imagecodecs.png_decode(path.read_bytes())
+    except imagecodecs.PngError as fault:
+        raise ValueError(str(fault)) from fault
+    values, alpha, bits, _ = _of_array(array)
+    notes = ("what EXIF says of its orientation was not heeded",) if turned else ()
+    return values, alpha, bits, notes
 
 
 def _tiff(path: Path) -> _Read:

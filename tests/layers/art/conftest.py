@@ -1,9 +1,9 @@
-"""A font of three glyphs, built by code."""
+"""A small font, built by code: a box, a disc and marks, with features where asked for."""
 
 import pytest
 
 
-def build(path, *, kern=False):
+def build(path, *, kern=False, features="", letters=None):
     from fontTools.fontBuilder import FontBuilder
     from fontTools.pens.ttGlyphPen import TTGlyphPen
 
@@ -24,9 +24,12 @@ def build(path, *, kern=False):
     round_.qCurveTo((0, 0), (0, 350), (0, 700), (300, 700))
     round_.closePath()
     glyphs = {".notdef": glyph(), "space": glyph(), "O": glyph(square, hole), "D": round_.glyph()}
+    glyphs["mark"] = glyph([(0, 0), (0, 100), (100, 100), (100, 0)])
+    glyphs["tall"] = glyph([(100, 0), (100, 1400), (500, 1400), (500, 0)])
     builder = FontBuilder(1000, isTTF=True)
     builder.setupGlyphOrder(list(glyphs))
-    builder.setupCharacterMap({32: "space", ord("O"): "O", ord("D"): "D", 0x13000: "O"})
+    letters = {" ": "space", "O": "O", "D": "D", "\U00013000": "O"} | (letters or {})
+    builder.setupCharacterMap({ord(letter): name for letter, name in letters.items()})
     builder.setupGlyf(glyphs)
     builder.setupHorizontalMetrics({name: (600, 100 * (name == "O")) for name in glyphs})
     builder.setupHorizontalHeader(ascent=800, descent=-200)
@@ -41,8 +44,18 @@ def build(path, *, kern=False):
         table.coverage, table.version, table.kernTable = 1, 0, {("O", "D"): -150}
         builder.font["kern"] = newTable("kern")
         builder.font["kern"].version, builder.font["kern"].kernTables = 0, [table]
+    if features:
+        builder.addOpenTypeFeatures(features)
     builder.save(path)
     return path
+
+
+@pytest.fixture
+def build_font(tmp_path):
+    """Return a function: features and letters to the path of a font that has them."""
+    return lambda features, **letters: build(
+        tmp_path / "featured.ttf", features=features, letters=letters
+    )
 
 
 @pytest.fixture

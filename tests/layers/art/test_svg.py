@@ -75,10 +75,112 @@ def test_scripts_texts_and_pictures_are_left_out_and_named(tmp_path):
     assert [note.split()[1] for note in art.notes] == ["scripts", "texts"]
 
 
+CLIPS = (
+    '<defs><clipPath id="c"><rect x="20" y="20" width="40" height="40"/></clipPath>'
+    '<clipPath id="b" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+    '<mask id="m"><rect width="9" height="9" fill="white"/></mask></defs>'
+)
+
+
+def extent(found):
+    points = np.concatenate([ring.points for mark in found for ring in mark.rings])
+    return [*points.min(axis=0), *points.max(axis=0)]
+
+
+@pytest.mark.parametrize(
+    ("body", "left"),
+    [
+        ('<rect width="200" height="30" clip-path="url(#c)"/>', [10, 10, 30, 15]),
+        ('<rect width="200" height="30" style="clip-path:url(#c)"/>', [10, 10, 30, 15]),
+        ('<g clip-path="url(#c)"><rect width="30" height="30"/><g/></g>', [10, 10, 15, 15]),
+        ('<g transform="scale(2)" clip-path="url(#c)"><rect width="99" height="99"/></g>',
+         [20, 20, 60, 60]),
+        ('<g clip-path="url(#c)"><path clip-path="url(#c)" transform="translate(20)" '
+         'd="M0 0h99v99h-99z"/></g>', [20, 10, 30, 30]),
+        ('<g id="g" clip-path="url(#c)"><rect width="99" height="99"/></g>'
+         '<use href="#g" x="100"/>', [10, 10, 80, 30]),
+    ],
+)  # fmt: skip
+def test_clips_are_applied_in_the_coordinates_of_what_they_clip(tmp_path, body, left):
+    art = read_svg(svg(tmp_path, CLIPS + body))
+    assert art.notes == ()
+    np.testing.assert_allclose(extent(art.marks), left, atol=1e-3)
+
+
+def test_a_stroke_is_clipped_by_itself(tmp_path):
+    art = read_svg(
+        svg(tmp_path, CLIPS + '<rect x="30" y="10" width="60" height="20" stroke="#000" '
+            'stroke-width="2" clip-path="url(#c)"/>')
+    )  # fmt: skip
+    area, line = art.marks
+    assert (area.fill, area.width, line.fill) == ("nonzero", None, None)
+    assert not any(ring.closed for ring in line.rings)
+    np.testing.assert_allclose(extent([line]), [15, 10, 30, 15], atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ('<rect id="r" width="9" height="9" clip-path="url(#b)"/>', "<rect> 'r': its clip is not"),
+        ('<rect width="9" height="9" clip-path="url(#lost)"/>', "<rect> in line 1: its clip is"),
+        ('<rect width="9" height="9" mask="url(#m)"/>', "<rect> in line 1: its mask is"),
+        ('<style>.a{clip-path:url(#c)}</style><rect class="a" width="9" height="9"/>',
+         "1 clips or masks of a style sheet are not applied"),
+        ('<linearGradient id="l"/><rect width="9" height="9" fill="url(#l)"/>', "1 gradients"),
+        ('<path d="M0 0h9" stroke="#000" stroke-dasharray="2 1"/>', "1 dashed lines drawn whole"),
+        ('<path d="M0 0h9" stroke="#000" marker-end="url(#m)"/>', "1 lines without their markers"),
+        ('<rect width="9" height="9" filter="url(#f)"/>', "1 filters are not applied"),
+        ('<rect width="9" height="9"/><use href="other.svg#a"/>', "<use> in line 1 shows what is"),
+        ('<svg width="3cm" height="3cm"><rect width="9" height="9"/></svg>', "<svg> in line 1:"),
+    ],
+)  # fmt: skip
+def test_what_is_not_drawn_as_it_is_painted_is_told(tmp_path, body, said):
+    art = read_svg(svg(tmp_path, CLIPS + body))
+    (note,) = art.notes
+    assert note.startswith(said)
+    assert len(art.marks) == 1
+
+
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        'visibility="hidden"', 'style="visibility:hidden"', 'style="display:none"', 'opacity="0"',
+        'class="h"', 'fill-opacity="0"',
+    ],
+)  # fmt: skip
+def test_what_is_hidden_is_not_carved(tmp_path, hidden):
+    sheet = "<style>.h{visibility:hidden}</style>"
+    hidden = f'<rect width="9" height="9" {hidden}/>'
+    assert len(marks(tmp_path, f'{sheet}{hidden}<rect width="9" height="9"/>')) == 1
+    group = '<g visibility="hidden"><rect width="9" height="9"/></g>'
+    assert len(marks(tmp_path, f'{group}<rect width="9" height="9"/>')) == 1
+
+
+@pytest.mark.parametrize(
+    ("body", "left"),
+    [
+        ('<symbol id="s" viewBox="0 0 10 10"><rect width="10" height="10"/></symbol>'
+         '<use href="#s" x="20" width="40" height="20"/>', [15, 0, 25, 10]),
+        ('<symbol id="s" viewBox="0 0 10 10" preserveAspectRatio="none"><rect width="10" '
+         'height="10"/></symbol><use href="#s" x="20" width="40" height="20" '
+         'transform="translate(0,10)"/>',
+         [10, 5, 30, 15]),
+        ('<svg x="20" y="40" width="60" height="20" viewBox="10 10 3 2" '
+         'preserveAspectRatio="xMinYMid meet"><path d="M10 10h9v2h-9z"/></svg>', [10, 20, 40, 30]),
+        ('<svg x="20" y="40" width="20" height="20" overflow="visible"><rect width="99" '
+         'height="9"/></svg>', [10, 20, 59.5, 24.5]),
+    ],
+)  # fmt: skip
+def test_symbols_and_pages_within_the_page_have_their_place(tmp_path, body, left):
+    np.testing.assert_allclose(extent(marks(tmp_path, body)), left, atol=0.04)
+
+
 @pytest.mark.parametrize(
     ("body", "said"),
     [
         ("", "no path"),
+        ('<symbol><rect width="9" height="9"/></symbol>', "no path"),
+        (CLIPS + '<rect x="99" width="9" height="9" clip-path="url(#c)"/>', "no path"),
         ('<image href="a.png" width="9" height="9"/>', "1 pictures left out"),
         ("<text>hello</text>", "1 texts left out"),
         ('<path d="" fill="none" stroke="black"/>', "no path"),

@@ -7,6 +7,8 @@ from relieffab.grid import Grid
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.make import layers_of
 from relieffab.layers.mesh import make_mesh
+from relieffab.layers.model import Layers
+from relieffab.layers.shading import default_lights, lambert
 from relieffab.layers.view import View, place
 from relieffab.subject.shapes import star
 
@@ -36,6 +38,31 @@ def picture(values, *, bits=8, alpha=None, name="picture"):
     """Make a picture of an array."""
     values = np.asarray(values, float)
     return Picture(values if values.ndim == 3 else values[..., None], alpha, bits, "PNG", name)
+
+
+@pytest.fixture(scope="session")
+def ball():
+    """Layers of a ball of radius 8 that stands 12 mm before a slope, by its formula."""
+    grid = Grid.on_panel(SIZE, (160, 120))
+    rows, cols = np.indices(grid.shape) + 0.5
+    x, y = grid.to_xy(rows, cols)
+    x, y = x - 20.0, y - 14.0
+    up = np.sqrt(np.maximum(64.0 - x * x - y * y, 0.0))
+    before = up > 0
+    depth = np.where(before, up + 12.0, 0.3 * x + 0.2 * y)
+    slope = np.array([-0.3, -0.2, 1.0]) / np.sqrt(1.13)
+    normals = np.where(before[..., None], np.stack([x, y, up], axis=-1) / 8.0, slope)
+    mask = np.hypot(x / 17.0, (y - 1.0) / 12.5) < 1
+    lights = default_lights()
+    return Layers(
+        grid=grid,
+        depth=np.where(mask, depth - depth[mask].max(), 0.0),
+        normals=np.where(mask[..., None], normals, [0.0, 0.0, 1.0]),
+        mask=mask,
+        lights=lights,
+        shading=lambert(normals, lights) * mask,
+        lines=np.zeros(grid.shape),
+    )
 
 
 @pytest.fixture

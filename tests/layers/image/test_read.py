@@ -1,6 +1,9 @@
 import io
+import struct
 import sys
+import zlib
 
+import imagecodecs
 import numpy as np
 import pytest
 import tifffile
@@ -55,6 +58,60 @@ def test_sixteen_bits_and_floats_are_exact(tmp_path):
         assert np.isnan(picture.grey[3, 4:6]).all()
         assert opaque(picture).sum() == floats.size - 2
         assert picture.grey[0, 0] == floats[0, 0]
+
+
+WIDE = np.random.default_rng(0).integers(0, 2**16, (24, 32, 4), np.uint16)
+
+
+def wide_png(path, stored, *, size=None, clear=None, kept=1.0):
+    """Write a PNG of 16 bits by hand, its rows unfiltered."""
+    rows, cols, channels = stored.shape
+
+    def chunk(name, data):
+        whole = name + data
+        return struct.pack(">I", len(data)) + whole + struct.pack(">I", zlib.crc32(whole))
+
+    head = struct.pack(
+        ">IIBBBBB", *(size or (cols, rows)), 16, {2: 4, 3: 2, 4: 6}[channels], 0, 0, 0
+    )
+    lines = b"".join(b"\0" + row.astype(">u2").tobytes() for row in stored)
+    parts = [chunk(b"IHDR", head), chunk(b"IDAT", zlib.compress(lines)), chunk(b"IEND", b"")]
+    if clear is not None:
+        parts.insert(1, chunk(b"tRNS", clear.astype(">u2").tobytes()))
+    data = b"\x89PNG\r\n\x1a\n" + b"".join(parts)
+    path.write_bytes(data[: int(kept * len(data))])
+    return path
+
+
+@pytest.mark.parametrize("channels", [2, 3, 4])
+def test_a_png_keeps_its_colours_of_sixteen_bits(tmp_path, channels):
+    stored = WIDE[..., :channels]
+    picture = read_picture(wide_png(tmp_path / "a.png", stored))
+    colours = stored if channels == 3 else stored[..., :-1]
+    np.testing.assert_array_equal(picture.values, colours / 65535)
+    assert (picture.bits, picture.notes) == (16, ())
+    if channels != 3:
+        np.testing.assert_array_equal(picture.alpha, stored[..., -1] / 65535)
+
+
+def test_a_wide_png_may_name_a_transparent_colour(tmp_path):
+    picture = read_picture(wide_png(tmp_path / "a.png", WIDE[..., :3], clear=WIDE[5, 6, :3]))
+    assert np.argwhere(~opaque(picture)).tolist() == [[5, 6]]
+    np.testing.assert_array_equal(picture.values, WIDE[..., :3] / 65535)
+
+
+@pytest.mark.parametrize("kept", [0.3, 0.9])
+def test_a_truncated_wide_png_is_refused(tmp_path, kept):
+    with pytest.raises(InputError, match="cannot be read"):
+        read_picture(wide_png(tmp_path / "a.png", WIDE, kept=kept))
+
+
+@pytest.mark.parametrize("size", [(30_000, 20), (9000, 9000)])
+def test_a_wide_png_is_measured_before_it_is_decoded(tmp_path, monkeypatch, size):
+    path = wide_png(tmp_path / "a.png", WIDE, size=size)
+    monkeypatch.setattr(imagecodecs, "png_decode", None)
+    with pytest.raises(InputError, match="too large"):
+        read_picture(path)
 
 
 @pytest.mark.parametrize("compression", [None, "zlib", "lzw"])

@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.layers.image.figure import ALPHA, BACKGROUND, WHOLE
-from relieffab.layers.image.scale import to_length, white_is_far
+from relieffab.layers.image.scale import to_length, unit_of, white_is_far
 
 
 @pytest.mark.parametrize("far", [False, True])
@@ -28,3 +28,21 @@ def test_depth_gets_the_length_asked_for_or_half_the_shorter_side(stone):
     assert np.ptp(usual[stone.mask]) == pytest.approx(0.05 * (np.ptp(rows) + 1))
     with pytest.raises(InputError, match="level"):
         to_length(np.ones((20, 20)), np.ones((20, 20), bool), 0.1, None, "a")
+
+
+def slopes_of(layers):
+    return -np.moveaxis(layers.normals[..., :2] / layers.normals[..., 2:], 2, 0)
+
+
+@pytest.mark.parametrize("unit", [40.0, -0.5])
+def test_normals_tell_a_depth_maps_unit_whatever_steps_in_it(ball, unit):
+    found, alike = unit_of(ball.depth / unit + 3.0, ball.mask, slopes_of(ball), 0.25)
+    assert found == pytest.approx(unit, rel=0.01)
+    assert alike > 0.9
+
+
+def test_what_shows_something_else_is_not_alike(ball, stone):
+    rng = np.random.default_rng(0)
+    for other in (ball.depth[::-1], rng.random(ball.depth.shape), ball.normals[..., 2]):
+        assert unit_of(other, ball.mask, slopes_of(ball), 0.25)[1] < 0.4
+    assert unit_of(np.ones((30, 30)), np.ones((30, 30), bool), np.ones((2, 30, 30)), 1.0) == (0, 0)
