@@ -57,6 +57,19 @@ def test_the_report_tells_of_a_depth_map(ball, tmp_path):
     assert len(np.unique(np.round(relief.heights, 5))) > 2000
 
 
+def test_the_report_tells_of_a_depth_map_beside_a_normal_map(ball, tmp_path):
+    i, j = np.indices((200, 240)) - np.array([99.5, 119.5])[:, None, None]
+    up = np.sqrt(np.maximum(90.0**2 - i**2 - j**2, 0.0))
+    normals = np.where(up[..., None] > 0, np.stack([j, -i, up], axis=-1) / 90.0, [0, 0, 1.0])
+    normals = np.rint(127.5 * normals + 127.5).astype(np.uint8)
+    Image.fromarray(normals).save(tmp_path / "normals.png")
+    told = {**SMALL, "model": str(tmp_path / "normals.png"), "depth_map": str(ball)}
+    model = make_relief(resolve([("test", told)]), tmp_path / "out")["model"]
+    assert model["kind"] == "normal"
+    assert (model["depth_map"]["file"], model["depth_map"]["near"]) == ("ball.png", "white")
+    assert model["depth_mm"] == pytest.approx(12.0, rel=0.1)  # a ball as high as the room
+
+
 def test_a_drawing_and_an_svg_of_strokes_are_lines_only(scrawl, ring, tmp_path):
     for path in (scrawl, ring):
         chosen = resolve([("test", {**SMALL, "model": str(path), "line_depth": "0.4mm"})])

@@ -1,4 +1,4 @@
-"""Marks cut to the inside of other paths."""
+"""Marks cut to the inside of other paths, and areas that overlap made one."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -26,8 +26,7 @@ def clipped(mark: Mark, region: Sequence[Mark]) -> list[Mark]:
     list of Mark
         The area and the lines that are left, in that order; none where nothing is.
     """
-    points = [ring.points for part in (mark, *region) for ring in part.rings]
-    scale = FINE / max(float(np.abs(every).max()) for every in points) if points else 1.0
+    scale = _scale((mark, *region))
     inside = _union(region, scale)
     left = []
     if mark.fill is not None:
@@ -37,6 +36,32 @@ def clipped(mark: Mark, region: Sequence[Mark]) -> list[Mark]:
         rings = _lines(mark.rings, inside, scale)
         left += [replace(mark, rings=rings, fill=None, paper=False)] if rings else []
     return left
+
+
+def joined(marks: Sequence[Mark]) -> list[Mark]:
+    """Make areas that overlap the one before them one with it: no outline runs through another.
+
+    Parameters
+    ----------
+    marks : sequence of Mark
+        Filled, without strokes.
+    """
+    out: list[Mark] = []
+    for mark in marks:
+        if out and clipped(mark, out[-1:]):
+            scale = _scale((out[-1], mark))
+            paths = _union((out.pop(), mark), scale)
+            rings = tuple(Ring(np.array(path) / scale, closed=True) for path in paths)
+            out.append(Mark(rings, fill="nonzero"))
+        else:
+            out.append(mark)
+    return out
+
+
+def _scale(marks: Sequence[Mark]) -> float:
+    """Clipper's steps to a unit of the page."""
+    far = [float(np.abs(ring.points).max()) for mark in marks for ring in mark.rings]
+    return FINE / max(*far, 1e-300) if far else 1.0
 
 
 def _rule(mark: Mark) -> Any:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.layers.art.art import Art, Mark
+from relieffab.layers.art.clip import joined
 from relieffab.layers.art.curves import FINE, ring
 from relieffab.layers.art.runs import Run, runs_of
 
@@ -47,9 +48,10 @@ def set_text(text: str, font: str | Path) -> Art:
     face.check()
     marks: list[Mark] = []
     for k, (glyphs, width) in enumerate(shaped):
-        for glyph, x, up in glyphs:
-            mark = face.mark(glyph, x - width / 2, k * LINE * face.size - up)
-            marks += [mark] if mark is not None else []
+        found = (
+            face.mark(glyph, x - width / 2, k * LINE * face.size - up) for glyph, x, up in glyphs
+        )
+        marks += joined([mark for mark in found if mark is not None])
     if not marks:
         raise InputError(
             "the font's glyphs for this text are blank", found=repr(text), where=str(path)

@@ -27,7 +27,8 @@ COARSE = 400
 LOSSY = ("JPEG", "WEBP")
 """Formats in which no colour stays exactly what it was."""
 HOLE = 0.005
-"""Of the figure: smaller spots of the background's colour inside it are shadows."""
+"""Of the figure: smaller spots of the background's colour inside it are shadows, or level in a
+normal map."""
 STRIP = 5
 """Half the width, pixels of that copy, of what may be background's tone inside a figure."""
 
@@ -83,7 +84,9 @@ def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tu
 def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
     mask = None if picture.format in LOSSY else _background(picture)
     if mask is not None:
-        return (mask if even else _but_shadows(mask)), BACKGROUND
+        # In a depth map a spot as far as the background is a hole; normals there face the viewer.
+        holes = even and not picture.coloured
+        return (mask if holes else _but_shadows(mask)), BACKGROUND
     mask = None if even else _segmented(picture)
     return (opaque(picture), WHOLE) if mask is None else (mask, SEGMENTED)
 

@@ -64,6 +64,8 @@ def fuse(
         pitch * (ODD[0] + ODD[1] * np.maximum(*_ends(steep, k))) + doubt + 3.0 * noise
         for k in (1, 0)
     ]
+    # Where the map is farther off than its noise and rounding explain it steps, or is smeared by
+    # a step: that is where it is off most and the normals turn most.
     odd = [s & (o > most) for s, o, most in zip(sure, off, spare, strict=True)]
     cut = [
         step & _peak(much * (0.1 + _turn(normals, k)), k)
@@ -73,6 +75,7 @@ def fuse(
     weights = [np.where(b & ~c, 1.0, 0.0) for b, c in zip(both, cut, strict=True)]
     start = np.where(mask, _filled(depth, known), 0.0)
     found = _solve(start, trust, wanted, weights, mask)
+    # What still contradicts the normals are steps that were not found: links hold them less.
     weights = [
         weight / (1.0 + ((np.diff(found, axis=k) - want) / most) ** 2) ** 2
         for k, weight, want, most in zip((1, 0), weights, wanted, spare, strict=True)
@@ -136,5 +139,6 @@ def _solve(
     ).tocsr()
     start, ease = near[mask], sparse.diags_array(1.0 / diagonal)
     out = np.zeros(mask.shape)
+    # Iterations that run out leave an error far below the depth map's own: no status is asked.
     out[mask] = cg(matrix, rhs, x0=start, rtol=1e-5, maxiter=MOST, M=ease)[0]
     return out

@@ -91,6 +91,7 @@ def _known(picture: Picture, mask: Bools, path: str) -> Bools:
             expected=f"{mask.shape[1]} x {mask.shape[0]} pixels",
             found=f"{picture.shape[1]} x {picture.shape[0]}",
             where=path,
+            hint="scale it to that size, if it shows the same view",
         )
     if picture.coloured:
         raise InputError("a depth map has no colours", expected="grey", where=path)

@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.grid import Grid
 from relieffab.layers.art.art import Mark, Ring
-from relieffab.layers.art.clip import clipped
+from relieffab.layers.art.clip import clipped, joined
 from relieffab.layers.art.fill import inside
 
 GRID = Grid.on_panel((20.0, 20.0), (40, 40))
@@ -43,3 +43,13 @@ def test_nothing_is_left_of_what_lies_beyond_or_within_nothing():
     assert clipped(area(SQUARE), []) == []
     assert clipped(area(SQUARE), [dot]) == []
     assert clipped(dot, [area(SQUARE)]) == []
+
+
+def test_areas_that_overlap_become_one_without_a_line_through_it():
+    hole = Ring(SQUARE[::-1] * 0.5 + 5.0, True)
+    framed = Mark((Ring(SQUARE, True), hole), fill="nonzero")
+    apart, over = area(SQUARE + np.array([30.0, 0.0])), area(SQUARE + np.array([11.0, 2.0]))
+    assert joined([framed, apart]) == [framed, apart]
+    (both,) = joined([framed, over])
+    assert len(both.rings) == 2
+    np.testing.assert_array_equal(pixels(both), pixels(framed) | pixels(over))
