@@ -7,7 +7,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.job import milling, reliefs, run, styles
+from relieffab.job import composed, milling, reliefs, run, styles
 from relieffab.job.drawn import read_strokes
 from relieffab.job.load import gather
 from relieffab.job.settings import default_job
@@ -30,6 +30,9 @@ SETTINGS = {
     "ground": "pecked",
     "thickness": "8mm",
 }
+
+
+OTHER = {"style": "point", "ground": "plain", "size": "24x24mm", "resolution": "192x192"}
 
 
 @pytest.fixture(scope="module")
@@ -118,6 +121,36 @@ def test_pecks_leave_room_for_every_cutter_beside_a_raised_frame():
     assert min(x.min(), y.min()) >= 2 + 2.5 - 2 * relief.grid.pitch
     check(relief, machine_of(job), milling.all_cutters_of(job), stock_of(job), 0.1)
     assert part["ground"] == "pecked" and len(marks.lines) > 20
+
+
+def test_a_composed_panel_has_a_program_for_each_cutter_of_marks(made, tmp_path):
+    """The sphere and another with a point's marks: what each was, on one panel, and proved."""
+    folder, alone = made
+    other = gather({**SETTINGS, **OTHER, "model": str(folder.parent / "ball.obj")}, None, {})
+    run.make_relief(other, tmp_path / "point")
+    places = [(folder, (24.0, 0.0)), (tmp_path / "point", (0.0, 0.0))]
+    chosen = gather({"size": "56x24mm", "thickness": "8mm", "model": ""}, None, {})
+    composed.make(chosen, places, tmp_path / "both")
+    report = run.add_toolpaths(chosen, tmp_path / "both")
+    programs = [(part["file"], part["cutter"]["name"]) for part in report["programs"]]
+    assert programs[-2:] == [("04-marks.nc", "ball-2"), ("05-marks-2.nc", "vee-90")]
+    verdict = report["verification"]
+    assert verdict["ok"] and verdict["gouge_mm"] == 0 and verdict["within_tolerance"] > 0.96
+    told = [[style["relief"] for style in part["styles"]] for part in report["reliefs"]]
+    assert told == [["out"], ["point"]]
+    assert "<b>point</b>" in (tmp_path / "both" / "report.html").read_text()
+    ball, point = styles.read_marks(tmp_path / "both", report)
+    (one,) = styles.read_marks(folder, alone)
+    for line, own in zip(ball.lines, one.lines, strict=True):
+        np.testing.assert_allclose(line - own, np.tile([24.0, 0.0], (len(own), 1)), atol=1e-3)
+    assert point.cutter.name == "vee-90" and point.lines
+    # The figure is the figure's: pecks on the ground are none of it.
+    whole, part = (
+        read_relief(tmp_path / "both" / "relief.tiff"),
+        read_relief(folder / "relief.tiff"),
+    )
+    other = read_relief(tmp_path / "point" / "relief.tiff")
+    assert whole.mask.sum() == part.mask.sum() + other.mask.sum()
 
 
 def test_marks_come_back_from_their_files(made, tmp_path):
