@@ -14,7 +14,7 @@ from relieffab.job.stocks import round_of, stock_of
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
-from relieffab.relief.compose import Placed, compose
+from relieffab.relief.compose import Placed, compose, fitted_round
 from relieffab.relief.laid import parted
 from relieffab.relief.model import Relief, nodes_of
 from relieffab.relief.store import read_relief
@@ -38,8 +38,10 @@ def _agreed(reports: Sequence[Report]) -> dict[str, str]:
     return {name: text for name, text in found.items() if text}
 
 
-def _moved(stroke: Stroke, at: tuple[float, float], around: float | None) -> list[Stroke]:
-    moved = replace(stroke, points=stroke.points + at)
+def _moved(
+    stroke: Stroke, at: tuple[float, float], scale: float, around: float | None
+) -> list[Stroke]:
+    moved = replace(stroke, points=scale * stroke.points + at)
     return [moved] if around is None else parted(moved, around)
 
 
@@ -101,13 +103,18 @@ def make(
     progress("compose", 0, 1)
     parts = [Placed(read_relief(path / "relief.tiff"), at, path.name) for path, at in places]
     bent, stock = round_of(job), stock_of(job)
-    joined = bent is not None and bent.all_round
+    joined, scale = bent is not None and bent.all_round, 1.0
+    if joined:
+        parts, scale = fitted_round(parts, job.size[0])
     relief = compose(parts, job.size, joined=joined)
     check_clear(nodes_of(relief.mask), relief.grid, stock, relief.depth)
     report = _report(settings, reports, places, relief)
     around = job.size[0] if joined else None
     strokes = [
-        part for path, at in places for s in read_strokes(path) for part in _moved(s, at, around)
+        stroke
+        for part, (path, _) in zip(parts, places, strict=True)
+        for drawn in read_strokes(path)
+        for stroke in _moved(drawn, part.at, scale, around)
     ]
     with finished_together(folder, ALL) as scratch:
         _write(relief, strokes, job, report, scratch)
