@@ -15,7 +15,7 @@ from relieffab.job.stocks import round_of, stock_of
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
-from relieffab.relief.compose import Placed, compose, laid_out, walls_of
+from relieffab.relief.compose import Placed, compose, fitted_round, laid_out, scaled, walls_of
 from relieffab.relief.laid import parted, parted_line
 from relieffab.relief.model import Floats, Relief, nodes_of
 from relieffab.relief.store import read_relief, to_tiff
@@ -26,7 +26,7 @@ Place = tuple[Path, tuple[float, float]]
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A finished folder and its place.
+    """A finished folder, its place, and the scale at which it is laid there.
 
     `smooth` is the relief before its marks, if it has any.
     """
@@ -36,6 +36,7 @@ class _Part:
     report: Report
     relief: Relief
     marks: tuple[Marks, ...]
+    scale: float = 1.0
 
     @classmethod
     def read(cls, folder: Path, at: tuple[float, float]) -> "_Part":
@@ -52,7 +53,7 @@ class _Part:
         return job_of(resolve([("report.json", self.report["settings"])])).wall_angle
 
     def placed(self, relief: Relief) -> Placed:
-        return Placed(relief, self.at, self.folder.name)
+        return Placed(scaled(relief, self.scale), self.at, self.folder.name)
 
     def walls(self) -> Relief:
         if (self.folder / WALLS).is_file():
@@ -60,14 +61,13 @@ class _Part:
         return walls_of(self.smooth, self.wall_angle)
 
     def strokes(self, around: float | None) -> list[Stroke]:
-        moved = (replace(s, points=s.points + self.at) for s in read_strokes(self.folder))
-        return [part for s in moved for part in ([s] if around is None else parted(s, around))]
+        drawn = read_strokes(self.folder)
+        moved = [replace(s, points=self.scale * s.points + self.at) for s in drawn]
+        return moved if around is None else [part for s in moved for part in parted(s, around)]
 
     def lines(self, marks: Marks, around: float | None) -> list[Floats]:
-        moved = (line + self.at for line in marks.lines)
-        return [
-            p for line in moved for p in ([line] if around is None else parted_line(line, around))
-        ]
+        moved = [self.scale * line + self.at for line in marks.lines]
+        return moved if around is None else [p for line in moved for p in parted_line(line, around)]
 
     def told(self) -> Report:
         """Say what report.json holds of it."""
@@ -78,6 +78,12 @@ class _Part:
             "sha256": self.report["relief"].get("sha256"),
             "styles": [{"relief": self.folder.name, **one} for one in styles_in(self.report)],
         }
+
+
+def _fitted(parts: Sequence[_Part], around: float) -> list[_Part]:
+    """Have a whole number of pixels go round, with all that belongs to each part."""
+    placed, scale = fitted_round([part.placed(part.relief) for part in parts], around)
+    return [replace(part, at=one.at, scale=scale) for part, one in zip(parts, placed, strict=True)]
 
 
 def _report(settings: Mapping[str, Chosen], parts: Sequence[_Part], relief: Relief) -> Report:
@@ -137,6 +143,7 @@ def make(
     parts = [_Part.read(path, at) for path, at in places]
     bent = round_of(job)
     around = job.size[0] if bent is not None and bent.all_round else None
+    parts = parts if around is None else _fitted(parts, around)
     relief, marks = _composed(parts, job.size, around)
     sunk = nodes_of(relief.mask) | (relief.heights < 0)
     check_clear(sunk, relief.grid, stock_of(job), relief.depth)

@@ -43,6 +43,45 @@ class Placed:
         return Grid(grid.rows, grid.cols, grid.pitch, (x + self.at[0], y + self.at[1]))
 
 
+def fitted_round(parts: Sequence[Placed], around: float) -> tuple[list[Placed], float]:
+    """Shrink reliefs so that a whole number of the finest one's pixels goes round.
+
+    By less than a pixel in the way round; each is moved to the nearest pixel, so that the
+    nodes of the finest, and of all of its pitch, are taken over as they are.
+
+    Parameters
+    ----------
+    parts : sequence of Placed
+    around : float
+        mm.
+
+    Returns
+    -------
+    list of Placed
+    float
+        The scale, 1 or a little less.
+    """
+    finest = min((part.grid.pitch for part in parts), default=around)
+    pitch = around / ceil(around / finest - ROUNDING)
+    scale = pitch / finest
+    fitted = []
+    for part in parts:
+        small = replace(part, relief=scaled(part.relief, scale))
+        low_x, low_y = small.grid.to_xy(small.grid.rows, 0)
+        left, near = round(low_x / pitch) * pitch, ceil(low_y / pitch - 0.5) * pitch
+        near = near if low_y < 0 else max(near, 0.0)
+        at = (part.at[0] + left - low_x, part.at[1] + near - low_y)
+        fitted.append(replace(small, at=at))
+    return fitted, scale
+
+
+def scaled(relief: Relief, scale: float) -> Relief:
+    """Scale a relief in X and Y about the X0 Y0 of its own panel."""
+    grid, (x, y) = relief.grid, relief.grid.origin
+    own = Grid(grid.rows, grid.cols, scale * grid.pitch, (scale * x, scale * y))
+    return replace(relief, grid=own)
+
+
 def _common(parts: Sequence[Placed], size: tuple[float, float], *, joined: bool) -> Grid:
     """Cover the panel by pixels of the finest relief's pitch, in step with its nodes.
 

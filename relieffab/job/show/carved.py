@@ -40,6 +40,7 @@ def show_program(
     grid = Grid.on_panel((stock.width, stock.height), (PIXELS, PIXELS))
     carved = simulate(run.programs, run.cutters, grid, stock, refine=1, progress=progress)
     heights = carved.heights.astype(float)
+    deepest = float((stock.face(carved.grid.node_axes()[0]) - heights).max())
     if stock.radius:  # its relief upright, as `relieffab.relief.laid.upright` lays it
         heights = heights.T
     image = shade(heights, carved.grid.pitch, lit.light, texture=lit.texture)
@@ -47,10 +48,10 @@ def show_program(
     notes = list(carved.crashes)
     if before:
         notes.append("carved before it: " + ", ".join(dict.fromkeys(before)))
-    return Shown("program", _facts(run, heights), image, notes=tuple(notes))
+    return Shown("program", _facts(run, deepest), image, notes=tuple(notes))
 
 
-def _facts(run: Run, heights: np.ndarray) -> dict[str, object]:
+def _facts(run: Run, deepest: float) -> dict[str, object]:
     boxes = np.array([part.bounds for part in run.asked])
     stock = run.stock
     return {
@@ -65,5 +66,5 @@ def _facts(run: Run, heights: np.ndarray) -> dict[str, object]:
         "lines": run.asked[0].line_count,
         "seconds": round(sum(estimate(part, run.machine) for part in run.asked), 1),
         "cut_mm": round(sum(part.cutting_length for part in run.asked), 1),
-        "deepest_mm": round(-float(heights.min()), 4),
+        "deepest_mm": round(deepest, 4),
     }
