@@ -31,7 +31,8 @@ ARGUMENTS = [
     "--enable-precise-memory-info",
 ]
 WINDOW = {"width": 900, "height": 620}
-BEGUN = {"size": "40x30mm", "resolution": "160x120", "line_length": "2mm", "material": "foam"}
+BEGUN = {"size": "40x30mm", "resolution": "96x72", "line_length": "2mm", "material": "foam"}
+BEGUN |= {"scallop": "0.05mm"}
 BEGUN |= {"up": "y"}  # of a file of triangles alone it would have to be guessed
 PATIENCE = 400.0  # seconds: a studio that has never run compiles first
 
