@@ -97,9 +97,9 @@ class Session:
 
     def _said_of_it(self, texts: Mapping[str, str]) -> dict[str, str]:
         """Leave at their defaults those settings that say nothing of a model of this kind."""
-        flat = isinstance(self.model, Sheet)
-        idle: tuple[str, ...] = OF_MESHES if flat else ()
-        idle += () if flat and self.model and self.model.kind != "svg" else OF_PICTURES
+        kind = self.model.kind if self.model else "mesh"
+        idle: tuple[str, ...] = OF_MESHES if kind != "mesh" else ()
+        idle += OF_PICTURES if kind in ("mesh", "svg") else ()
         return {**texts, **{name: TABLE[name].default for name in idle}}
 
     def read(self, given: Mapping[str, Any]) -> dict[str, str]:

@@ -100,10 +100,10 @@ def test_a_picture_comes_in_and_its_mask(client, bump, desk, tmp_path):
     half = np.zeros((90, 120), np.uint8)
     half[:, :60] = 255
     Image.fromarray(half).save(tmp_path / "bump.png")
-    Image.fromarray(half[:, :50]).save(tmp_path / "narrow.png")
+    Image.fromarray(half[:, 30:]).save(tmp_path / "narrow.png")
     narrow = (tmp_path / "narrow.png").read_bytes()
     told = fault(client.post("mask", params={"name": "narrow.png"}, content=narrow))
-    assert "does not fit" in told["message"] and "50 x 90" in told["found"]
+    assert "does not fit" in told["message"] and "90 x 90" in told["found"]
     sent = (tmp_path / "bump.png").read_bytes()
     answer = client.post("mask", params={"name": "bump.png"}, content=sent).json()
     assert answer == {"mask": "bump-1.png"}

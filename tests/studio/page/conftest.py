@@ -81,9 +81,17 @@ class Person:
 
     def opens(self, file):
         """Choose a model's file, and wait until it is shown."""
+        if self.sees("document.getElementById('welcome').hidden"):
+            self.calm()  # what was open before is no longer on its way
         before = self.sees("studio.store.version + studio.asking.count")
         self.page.set_input_files("#file", file)
         self.waits(f"studio.store.version + studio.asking.count > {before}")
+        self.calm()
+
+    def begins_anew(self):
+        """Have all settings as they are by default."""
+        defaults = {name: setting.default for name, setting in TABLE.items() if name in OFFERED}
+        self.sees(f"studio.store.change({json.dumps({**defaults, **BEGUN})})")
         self.calm()
 
     def goes_to(self, tab):
@@ -189,7 +197,14 @@ def carver(person, model):
     """Somebody with the scarab before them, settings as they are by default."""
     if person.page.inner_text("#model-name") != model.name:
         person.opens(model)
-    defaults = {name: setting.default for name, setting in TABLE.items() if name in OFFERED}
-    person.sees(f"studio.store.change({json.dumps({**defaults, **BEGUN})})")
-    person.calm()
+    person.begins_anew()
+    return person
+
+
+@pytest.fixture
+def viewer(person, bump):
+    """Somebody with a depth map before them, settings as they are by default."""
+    if person.page.inner_text("#model-name") != bump.name:
+        person.opens(bump)
+    person.begins_anew()
     return person

@@ -3,7 +3,6 @@
 import io
 
 import numpy as np
-import pytest
 from PIL import Image
 
 DISABLED = "document.getElementById('set-{}').disabled"
@@ -11,13 +10,6 @@ WHY = "document.getElementById(document.getElementById('set-{}')\
 .getAttribute('aria-describedby').split(' ').at(-1)).textContent"
 RING = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 60">
 <path d="M10 50 40 5 70 50z" fill="#333"/><circle cx="40" cy="35" r="9" fill="white"/></svg>"""
-
-
-@pytest.fixture
-def viewer(carver, bump):
-    """Somebody with a depth map before them, settings as they are by default."""
-    carver.opens(bump)
-    return carver
 
 
 def test_a_picture_is_told_what_it_was_taken_for_and_may_be_told_otherwise(viewer):
@@ -47,21 +39,6 @@ def test_a_picture_is_told_what_it_was_taken_for_and_may_be_told_otherwise(viewe
     assert np.allclose(viewer.heights(), before, atol=0.02)
 
 
-def test_what_a_picture_has_no_use_for_rests_and_says_why(viewer, model):
-    assert viewer.sees(DISABLED.format("azimuth"))
-    assert "Only a mesh can be turned" in viewer.sees(WHY.format("azimuth"))
-    assert not viewer.sees(DISABLED.format("image_depth"))
-    asked = viewer.sees("studio.asking.count")
-    viewer.page.focus("#view")
-    for key in ("ArrowLeft", "e", "0"):
-        viewer.page.keyboard.press(key)
-    assert viewer.sees("studio.asking.count") == asked
-    viewer.opens(model)
-    assert viewer.page.inner_text("#tab-model") == "Model"
-    assert not viewer.sees(DISABLED.format("azimuth"))
-    assert "Of pictures alone" in viewer.sees(WHY.format("image_depth"))
-
-
 def test_a_mask_is_sent_undone_and_refused_where_it_does_not_fit(viewer, tmp_path):
     viewer.goes_to("relief")
     whole = (viewer.heights() < 0).sum()
@@ -85,13 +62,19 @@ def test_a_mask_is_sent_undone_and_refused_where_it_does_not_fit(viewer, tmp_pat
     assert (viewer.heights() < 0).sum() == whole
 
 
-def test_an_svg_is_shown_and_sunk(carver, tmp_path):
-    (tmp_path / "ring.svg").write_text(RING)
-    carver.opens(tmp_path / "ring.svg")
-    assert carver.page.inner_text("#tab-model") == "Drawing"
-    assert "level" in carver.sees(WHY.format("form_length"))
-    carver.goes_to("relief")
-    assert carver.heights().min() == -3.0
+def test_what_a_picture_has_no_use_for_rests_and_says_why(viewer, model):
+    assert viewer.sees(DISABLED.format("azimuth"))
+    assert "Only a mesh can be turned" in viewer.sees(WHY.format("azimuth"))
+    assert not viewer.sees(DISABLED.format("image_depth"))
+    asked = viewer.sees("studio.asking.count")
+    viewer.page.focus("#view")
+    for key in ("ArrowLeft", "e", "0"):
+        viewer.page.keyboard.press(key)
+    assert viewer.sees("studio.asking.count") == asked
+    viewer.opens(model)
+    assert viewer.page.inner_text("#tab-model") == "Model"
+    assert not viewer.sees(DISABLED.format("azimuth"))
+    assert "Of pictures alone" in viewer.sees(WHY.format("image_depth"))
 
 
 def test_marks_come_when_the_hand_rests(carver):
@@ -119,3 +102,13 @@ def test_marks_come_when_the_hand_rests(carver):
     assert 0.1 < (ground[36:, 36:] < -0.02).mean() < 0.9
     assert -0.26 < ground.min() < -0.1
     assert 'style = "gouge"' in carver.page.request.get(carver.url + "job.toml").text()
+
+
+def test_an_svg_is_shown_and_sunk(person, tmp_path):
+    (tmp_path / "ring.svg").write_text(RING)
+    person.opens(tmp_path / "ring.svg")
+    person.begins_anew()
+    assert person.page.inner_text("#tab-model") == "Drawing"
+    assert "level" in person.sees(WHY.format("form_length"))
+    person.goes_to("relief")
+    assert person.heights().min() == -3.0
