@@ -1,31 +1,43 @@
 """A job's model, of whatever kind, to its layers and what the report says of them."""
 
 import hashlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.job import looking
-from relieffab.job.settings import Job
+from relieffab.job.settings import Job, default_job
 from relieffab.layers.art.art import Art
-from relieffab.layers.art.make import layers_of_art, placed_on
+from relieffab.layers.art.make import ArtSight, placed_on
 from relieffab.layers.art.svg import read_svg
 from relieffab.layers.art.text import set_text
 from relieffab.layers.content import FONT, MESH, PICTURE, content_of
-from relieffab.layers.image.make import Showing, layers_of_picture
+from relieffab.layers.image.ink import InkSight
+from relieffab.layers.image.make import (
+    Known,
+    Showing,
+    sight_of_picture,
+    told,
+)
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.read import read_picture
+from relieffab.layers.image.sight import PictureSight
 from relieffab.layers.mesh import Mesh, make_mesh, read_mesh
 from relieffab.layers.model import Layers
 from relieffab.relief.names import LINES, SURFACE
 
 Part = dict[str, Any]
-Model = Mesh | Picture | Art
+Flat = Picture | Art
+Model = Mesh | Flat
+Sight = PictureSight | InkSight | ArtSight
 
-_OF_MESHES = ("azimuth", "elevation", "up")
-_OF_PICTURES = ("image", "image_depth", "mask", "depth_map")
+OF_MESHES = ("view", "azimuth", "elevation", "roll", "perspective", "up")
+OF_PICTURES = ("image", "image_depth", "mask", "depth_map")
+"""Settings that say something of models of one kind alone."""
+
+_DEFAULT = default_job()
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +75,7 @@ def read_model(job: Job) -> Model:
         vertices, faces = scarab()
         return make_mesh(vertices, faces, name="scarab", usual_up="y")
     kind = content_of(job.model)
-    _check_settings(job, kind)
+    check_settings(job, kind)
     if kind == MESH:
         return read_mesh(job.model)
     if kind == PICTURE:
@@ -71,13 +83,12 @@ def read_model(job: Job) -> Model:
     return set_text(job.text or "", job.model) if kind == FONT else read_svg(job.model)
 
 
-def _check_settings(job: Job, kind: str) -> None:
-    wrong = [name for name in _OF_PICTURES if kind != PICTURE and getattr(job, name) is not None]
-    if kind != MESH:
-        wrong += [name for name in _OF_MESHES if getattr(job, name) is not None]
-        wrong += ["perspective"] * (job.perspective != 0) + ["view"] * (job.view != "front")
-        wrong += ["roll"] * (job.roll != 0)
-    wrong += ["text"] * (kind != FONT and job.text is not None)
+def check_settings(job: Job, kind: str) -> None:
+    """Refuse settings that say nothing of a model of this kind."""
+    idle: tuple[str, ...] = OF_PICTURES if kind != PICTURE else ()
+    idle += OF_MESHES if kind != MESH else ()
+    idle += ("text",) if kind != FONT else ()
+    wrong = [name for name in idle if getattr(job, name) != getattr(_DEFAULT, name)]
     if wrong:
         flags = ", ".join("--" + name.replace("_", "-") for name in wrong)
         raise InputError(
@@ -107,55 +118,62 @@ def look_at(model: Model, job: Job) -> Seen:
         part["notes"] += [note] if note else []
         return Seen(layers, part, seen, job.carve)
     part = {"name": model.name, "notes": list(model.notes), "sha256": sha}
-    return _picture(model, job, part) if isinstance(model, Picture) else _art(model, job, part)
+    return _flat(model, job, part)
 
 
-def _picture(picture: Picture, job: Job, part: Part) -> Seen:
-    seen = layers_of_picture(
-        picture,
-        Grid.on_panel(job.size, job.resolution),
-        job.size,
-        margin=looking.margin_of(job),
-        showing=Showing(job.image, job.mask, job.image_depth, job.depth_map),
-        drawing=looking.drawing_of(job),
-    )
-    facts = {**seen.facts, "width": picture.shape[1], "height": picture.shape[0]}
-    facts |= {"bits": picture.bits, "format": picture.format}
-    part = {**part, **facts, "notes": [*part["notes"], *seen.notes]}
-    layers = seen.layers
-    carve = _lines_only(job, picture.name) if layers.level else job.carve
-    return _checked(Seen(layers, part, {"matrix": seen.fit.matrix}, carve), job)
+def sight_of(flat: Flat, job: Job, known: Known | None = None) -> Sight:
+    """See a picture or art on the panel, before it is drawn.
+
+    Parameters
+    ----------
+    flat : Picture or Art
+    job : Job
+    known : Known, optional
+        What was found of a picture before.
+    """
+    grid, margin = Grid.on_panel(job.size, job.resolution), looking.margin_of(job)
+    if isinstance(flat, Art):
+        matrix = placed_on(flat, job.size, margin=margin)
+        outlined, inked = job.carve == LINES, job.carve != SURFACE
+        return ArtSight(flat, grid, matrix, outlined=outlined, inked=inked)
+    showing = Showing(job.image, job.mask, job.image_depth, job.depth_map)
+    return sight_of_picture(flat, grid, job.size, margin=margin, showing=showing, known=known)
 
 
-def _art(art: Art, job: Job, part: Part) -> Seen:
-    matrix = placed_on(art, job.size, margin=looking.margin_of(job))
-    outlined = job.carve == LINES
-    grid = Grid.on_panel(job.size, job.resolution)
-    drawing = looking.drawing_of(job)
-    layers = layers_of_art(art, grid, matrix, outlined=outlined, drawing=drawing)
-    filled = any(mark.fill and not mark.paper for mark in art.marks)
-    carve = job.carve if filled else _lines_only(job, art.name)
-    part |= {"kind": art.kind, "marks": len(art.marks)}
-    if carve == SURFACE:
-        layers = replace(layers, lines=0.0 * layers.lines, strokes=_outlines(layers))
-    return _checked(Seen(layers, part, {"matrix": matrix}, carve), job)
+def carve_of(sight: Sight, job: Job) -> str:
+    """Say what of a picture or art can be carved, of what was asked.
 
-
-def _outlines(layers: Layers) -> tuple[Any, ...]:
-    return tuple(stroke for stroke in layers.strokes if stroke.kind == "outline")
-
-
-def _lines_only(job: Job, name: str) -> str:
-    if job.carve == SURFACE:
+    Raises
+    ------
+    InputError
+        If it has no surface, and nothing else was asked for.
+    """
+    if sight.lines_only and job.carve == SURFACE:
         raise InputError(
             "there is no surface to carve: all of it is lines",
-            where=name,
+            where=str(job.model),
             hint="--carve lines, or --image photo for a picture",
         )
-    return LINES
+    return LINES if sight.lines_only else job.carve
 
 
-def _checked(seen: Seen, job: Job) -> Seen:
+def check_figure(layers: Layers, job: Job) -> None:
     """Refuse a figure that comes too near the panel's edge, its frame or its holes."""
-    looking.check_figure(seen.layers.mask | (seen.layers.lines > 0), seen.layers.grid, job)
-    return seen
+    looking.check_figure(layers.mask | (layers.lines > 0), layers.grid, job)
+
+
+def _flat(flat: Flat, job: Job, part: Part) -> Seen:
+    sight, drawing = sight_of(flat, job), looking.drawing_of(job)
+    carve = carve_of(sight, job)
+    layers = sight.layers(sight.strokes(drawing), drawing)
+    check_figure(layers, job)
+    return Seen(layers, part | _facts(flat, sight), {"matrix": sight.matrix}, carve)
+
+
+def _facts(flat: Flat, sight: Sight) -> Part:
+    facts, notes = dict(sight.facts), [*flat.notes]
+    if isinstance(flat, Picture):
+        facts |= {"width": flat.shape[1], "height": flat.shape[0]}
+        facts |= {"bits": flat.bits, "format": flat.format}
+        notes += told(facts)
+    return {**facts, "notes": [*notes, *sight.notes]}

@@ -49,8 +49,8 @@ def check(job: Job) -> None:
         style.check(job.depth, Grid.on_panel(job.size, job.resolution).pitch)
 
 
-def mark(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks, Part]:
-    """Carve the marks; the part is report.json's `style`."""
+def carve(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks]:
+    """Carve the marks of a job's style."""
     style = style_of(job)
     stock, grid = stock_of(job), smooth.grid
     # What stands beside the face keeps every cutter off by half its width.
@@ -58,7 +58,13 @@ def mark(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks, Part]
     widest = max(style.tool.radius, *(profiles.cutter(name).radius for name in cutters))
     x, y = np.meshgrid(*grid.node_axes())
     ground = stock.on_face(x, y, max(BORDER, widest if stock.top > 0 else 0.0))
-    relief, marks = carve_marks(smooth, layers, style, depth=job.depth, ground=ground)
+    return carve_marks(smooth, layers, style, depth=job.depth, ground=ground)
+
+
+def mark(smooth: Relief, layers: Layers, job: Job) -> tuple[Relief, Marks, Part]:
+    """Carve the marks and measure them; the part is report.json's `style`."""
+    style = style_of(job)
+    relief, marks = carve(smooth, layers, job)
     chisel = style.chisel
     measured = {
         place: {

@@ -51,6 +51,7 @@ def make_app(desk: Desk) -> Starlette:
         "/page/{path:path}": ("GET", routes.page),
         "/state": ("GET", routes.state),
         "/model": ("POST", routes.model),
+        "/mask": ("POST", routes.mask),
         "/mesh": ("GET", routes.mesh),
         "/preview": ("POST", routes.preview),
         "/panel": ("POST", routes.panel),
@@ -133,17 +134,27 @@ class _Routes:
         if name == "scarab":
             await run_in_threadpool(self._desk.open_scarab)
             return await self.state(request)
-        name = upload.safe_name(name)
-        length = request.headers.get("content-length", "0")
-        upload.refuse_size(int(length) if length.isdigit() else 0)
-        file = self._desk.session.new_place() / name
-        try:
-            await _receive(request, file)
-            await run_in_threadpool(self._desk.open, file)
-        except BaseException:
-            await run_in_threadpool(_forget, file)
-            raise
+        await self._uploaded(request, self._desk.session.new_place(), self._desk.open)
         return await self.state(request)
+
+    async def mask(self, request: Request) -> Response:
+        """Take a picture's mask."""
+        place = self._desk.session.new_place()
+        name = await self._uploaded(request, place, self._desk.open_mask)
+        await run_in_threadpool(shutil.rmtree, place, ignore_errors=True)  # it is kept elsewhere
+        return JSONResponse({"mask": name})
+
+    async def _uploaded(self, request: Request, place: Path, take: Callable[[Path], Any]) -> Any:
+        """Receive a file into a place of its own, which is taken away if it is not taken."""
+        try:
+            file = place / upload.safe_name(request.query_params.get("name", ""))
+            length = request.headers.get("content-length", "0")
+            upload.refuse_size(int(length) if length.isdigit() else 0)
+            await _receive(request, file)
+            return await run_in_threadpool(take, file)
+        except BaseException:
+            await run_in_threadpool(shutil.rmtree, place, ignore_errors=True)
+            raise
 
     async def mesh(self, _request: Request) -> Response:
         return _frame(await run_in_threadpool(self._desk.mesh))
@@ -212,7 +223,3 @@ async def _receive(request: Request, file: Path) -> None:
             count += len(part)
             upload.refuse_size(count)
             await run_in_threadpool(out.write, part)
-
-
-def _forget(file: Path) -> None:
-    shutil.rmtree(file.parent, ignore_errors=True)

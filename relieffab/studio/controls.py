@@ -6,11 +6,16 @@ from typing import Any
 
 from relieffab import profiles
 from relieffab.fittings import LEVELS, PLACES
+from relieffab.job import seen
+from relieffab.job.seen import OF_MESHES
 from relieffab.job.table import TABLE
+from relieffab.layers.image.names import DEPTH, DEPTH_FAR, DRAWING
+from relieffab.layers.image.names import NAMES as PICTURES
 from relieffab.layers.lines.names import NAMES as LINE_KINDS
 from relieffab.layers.view import VIEWS
 from relieffab.relief.names import NAMES as METHODS
 from relieffab.relief.names import PARTS
+from relieffab.relief.style.names import GROUNDS, STYLES
 
 
 @dataclass(frozen=True)
@@ -28,15 +33,22 @@ class Range:
 
 
 Choices = tuple[str, ...]
+FILE = "file"
+"""A setting that names a file, which the page sends."""
 
 # Group by group in the page's order: label, and a slider or a choice; else text.
-_GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
+_GROUPS: dict[str, dict[str, tuple[str, Range | Choices | str | None]]] = {
     "Relief": {
         "depth": ("Depth", Range(0.5, 12, 0.1)),
         "line_depth": ("Line weight", Range(0, 2, 0.05)),
         "line_width": ("Line width", Range(0.2, 3, 0.05)),
         "line_detail": ("Line density", Range(0.4, 8, 0.1, reverse=True)),
         "form_length": ("Form length", Range(0.5, 12, 0.1)),
+    },
+    "Picture": {
+        "image": ("It shows", ("", *PICTURES)),
+        "image_depth": ("The map's depth", Range(1, 60, 0.5)),
+        "mask": ("Mask", FILE),
     },
     "View": {
         "view": ("Seen from", tuple(VIEWS)),
@@ -58,6 +70,14 @@ _GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
         "wall_angle": ("Wall angle", Range(30, 90, 1, "deg")),
         "reachable": ("Only what the cutter reaches", ("no", "yes")),
     },
+    "Marks": {
+        "style": ("Chisel", STYLES),
+        "mark_spacing": ("Spacing", Range(0.3, 4, 0.05)),
+        "mark_depth": ("Depth of the marks", Range(0.02, 1, 0.01)),
+        "mark_direction": ("Direction", Range(-90, 90, 1, "deg")),
+        "ground": ("Ground", GROUNDS),
+        "mark_cutter": ("Cutter for marks", ("", "cutters")),
+    },
     "Panel": {
         "size": ("Size", None),
         "thickness": ("Thickness", Range(3, 50, 0.5)),
@@ -71,6 +91,9 @@ _GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
         "hole": ("Hole diameter", Range(1, 12, 0.1)),
         "countersink": ("Countersink", Range(2, 20, 0.1)),
         "keyholes": ("Keyholes", None),
+        "round": ("Round: its diameter", Range(10, 200, 1)),
+        "bore": ("Bore", Range(5, 190, 1)),
+        "floor": ("Floor under the bore", Range(1, 50, 0.5)),
         "resolution": ("Resolution", ("512x384", "1024x768", "2048x1536", "4096x3072")),
     },
     "Cutting": {
@@ -106,6 +129,7 @@ _GROUPS: dict[str, dict[str, tuple[str, Range | Choices | None]]] = {
 }
 OFFERED = tuple(name for group in _GROUPS.values() for name in group)
 """Settings that the page may choose."""
+OF_PICTURES = tuple(name for name in seen.OF_PICTURES if name in OFFERED)
 
 
 def controls() -> list[dict[str, Any]]:
@@ -128,6 +152,8 @@ def _controls() -> Iterator[dict[str, Any]]:
                 ends = {"min": form.low, "max": form.high, "step": form.step}
                 way = {"unit": form.unit, "reverse": form.reverse}
                 yield {**control, "kind": "range", **ends, **way}
+            elif form == FILE:
+                yield {**control, "kind": FILE}
             elif form is None:
                 known = {"choices": list(LINE_KINDS)} if name == "line_kinds" else {}
                 yield {**control, "kind": "text", **known}
@@ -135,10 +161,54 @@ def _controls() -> Iterator[dict[str, Any]]:
                 yield {**control, "kind": "choice", "choices": _choices(form)}
 
 
-def _choices(form: Choices) -> list[str]:
-    if form in (("machines",), ("materials",), ("cutters",)):
-        return list(profiles.names(form[0]))  # type: ignore[arg-type]
-    return list(form)
+def _choices(form: Choices | str) -> list[str]:
+    kinds = ("machines", "materials", "cutters")
+    listed = [profiles.names(one) if one in kinds else (one,) for one in form]  # type: ignore[arg-type]
+    return [one for names in listed for one in names]
+
+
+_TURNED = "Only a mesh can be turned: this is carved as it lies."
+_PICTURES = "Of pictures alone."
+_MAPS = "Only a depth map is as deep as one says."
+_NO_FIGURE = "A drawing is all ink: there is no figure to be told apart."
+_AS_DRAWN = "Its lines are carved as they are drawn."
+_LEVEL = "It is level: there is no form to be solved for."
+_NO_AREAS = "It has no areas, and so no walls."
+_ROUND = "A round stock has none of these."
+_FLAT_ONLY = (
+    *("thickness", "outline", "corner", "frame", "frame_height", "frame_edge"),
+    *("holes", "hole", "countersink", "keyholes", "positions", "overlap"),
+    *("solid", "draft", "bed", "clearance"),
+)
+
+
+def idle(kind: str, *, bent: bool = False) -> dict[str, str]:
+    """Say which settings have nothing to say of a model and its stock, and why.
+
+    Parameters
+    ----------
+    kind : str
+        'mesh', 'svg', or what a picture shows.
+    bent : bool
+        Whether the stock is round.
+    """
+    return _idle_of(kind) | (dict.fromkeys(_FLAT_ONLY, _ROUND) if bent else {})
+
+
+def _idle_of(kind: str) -> dict[str, str]:
+    if kind == "mesh":
+        return dict.fromkeys(OF_PICTURES, _PICTURES)
+    found = dict.fromkeys(OF_MESHES, _TURNED)
+    if kind == "svg":
+        found |= dict.fromkeys(OF_PICTURES, _PICTURES)
+    elif kind not in (DEPTH, DEPTH_FAR):
+        found["image_depth"] = _MAPS
+    if kind in ("svg", DRAWING):
+        found |= dict.fromkeys(("line_kinds", "line_detail", "line_length"), _AS_DRAWN)
+        found |= dict.fromkeys(("form_length", "method", "reachable"), _LEVEL)
+    if kind == DRAWING:
+        found |= {"mask": _NO_FIGURE, "line_width": _AS_DRAWN, "wall_angle": _NO_AREAS}
+    return found
 
 
 def listed() -> dict[str, list[dict[str, str]]]:

@@ -1,6 +1,7 @@
 """Desk: session, worker, exporter and events of one studio, put together."""
 
 import functools
+import shutil
 import time
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Future
@@ -8,15 +9,18 @@ from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError
-from relieffab.job import looking, milling, reliefs
+from relieffab.job import looking, milling, styles
 from relieffab.job.settings import Chosen
 from relieffab.progress import Progress
 from relieffab.studio import controls, looks, upload, warm
+from relieffab.studio.ask import Ask
 from relieffab.studio.children import Children
 from relieffab.studio.events import Events
 from relieffab.studio.exporting import MODEL, Exporter, State
 from relieffab.studio.model import Model
-from relieffab.studio.session import Ask, Session
+from relieffab.studio.preview import Preview
+from relieffab.studio.session import Session
+from relieffab.studio.sheet import Sheet
 from relieffab.studio.worker import SupersededError, Work, Worker
 
 
@@ -70,8 +74,8 @@ class Desk:
         taken = self.worker.ask("warm", step, report=self._reporter("warm"))
         taken.add_done_callback(functools.partial(self._warm_on, steps))
 
-    def open(self, file: Path, *, up: str = "") -> None:
-        """Open a model's file; `up` is its axis that points up, guessed if not given.
+    def open(self, file: Path, **of_file: str) -> None:
+        """Open a model's file, with the settings that are of that file alone.
 
         Raises
         ------
@@ -85,7 +89,27 @@ class Desk:
         model = upload.parse(file, self.children)
         if number != self._opened:
             raise SupersededError
-        self.session.open(model, up=up)
+        self.session.open(model, **of_file)
+
+    def open_mask(self, file: Path) -> str:
+        """Open a mask of the picture that is open, and choose it.
+
+        Raises
+        ------
+        InputError
+            If it cannot be read or does not fit.
+        """
+        of = self.session.model
+        own = self.session.place_of_mask(upload.safe_name(file.name))
+        try:
+            shutil.copyfile(file, own)
+            mask = upload.parse_mask(own, self.children, of)
+            if of is not self.session.model:
+                raise SupersededError
+        except BaseException:
+            shutil.rmtree(own.parent, ignore_errors=True)
+            raise
+        return self.session.take_mask(mask)
 
     def open_scarab(self) -> None:
         """Open the toolkit's own scarab, as a file like any other."""
@@ -114,24 +138,35 @@ class Desk:
 
     def mesh(self) -> bytes:
         """Show the model."""
-        if self.session.model is None:
+        model = self.session.model
+        if model is None:
             raise InputError("no model is open", hint="drop a model file on the page")
-        return looks.mesh_frame(self.session.model.shown)
+        return (
+            looks.sheet_frame(model) if isinstance(model, Sheet) else looks.mesh_frame(model.shown)
+        )
 
     def preview(self, asked: Mapping[str, Any]) -> "Future[bytes]":
         """Show layers, and the relief if that is wanted, too."""
         before = self.session.texts
         ask, facts = self._settled("preview", asked)
         wanted = asked.get("want", ["layers", "relief"])
-        preview = self.session.fine if asked.get("fine") is True else self.session.preview
+        fine = asked.get("fine") is True
+        preview = self.session.fine if fine else self.session.preview
 
         def work(progress: Progress) -> bytes:
             preview.seconds = {}
-            view = preview.view(ask.model, ask.job, progress)
-            solved = preview.relief(view, ask.job, progress) if "relief" in wanted else None
-            more = {"seconds": preview.seconds, "notes": list(ask.model.shown.notes)}
-            carving = reliefs.carving_of(ask.job)
-            return looks.preview_frame(view, solved, carving, {**facts, **more})
+            view = preview.view(ask, progress)
+            solved = None
+            if "relief" in wanted:
+                # Marks take more pixels and time than the hand waits for.
+                solve = preview.marked if fine else preview.relief
+                solved = solve(view, ask.job, progress)
+            notes = [*ask.model.notes, *view.notes]
+            if solved and solved.marks is None and not styles.style_of(ask.job).plain:
+                notes.append("marks are shown when the hand rests")
+            idle = controls.idle(view.kind, bent=ask.job.round is not None)
+            more = {"seconds": preview.seconds, "notes": notes, "idle": idle}
+            return looks.preview_frame(view, solved, ask.job, {**facts, **more})
 
         # With other settings, whatever else is in work is void.
         drops = () if self.session.texts == before else ("panel", "toolpaths")
@@ -142,7 +177,7 @@ class Desk:
         ask, facts = self._settled("panel", asked)
 
         def work(progress: Progress) -> bytes:
-            panel = self.session.preview.panel(ask.model, ask.job, progress)
+            panel = self._carving(ask).panel(ask, progress)
             return looks.panel_frame(panel, facts)
 
         return self.worker.ask("panel", work)
@@ -153,9 +188,8 @@ class Desk:
 
         def work(progress: Progress) -> bytes:
             start = time.perf_counter()
-            preview = self.session.preview
-            view = preview.view(ask.model, ask.job, progress)
-            solved = preview.relief(view, ask.job, progress)
+            preview = self._carving(ask)
+            solved = preview.marked(preview.view(ask, progress), ask.job, progress)
             tried = self.session.trial.carry_out(solved, ask.job, progress)
             seconds = {"toolpaths": time.perf_counter() - start}
             return looks.toolpaths_frame(tried, {**facts, "seconds": seconds})
@@ -165,6 +199,10 @@ class Desk:
     def carved(self, at: float) -> "Future[bytes]":
         """Show the stock at a moment of the last programs."""
         return self.worker.ask("carved", lambda _: looks.carved_frame(self.session.trial, at))
+
+    def _carving(self, ask: Ask) -> Preview:
+        """Choose what panels and programs are tried on: marks need what is fine enough."""
+        return self.session.preview if styles.style_of(ask.job).plain else self.session.fine
 
     def _settled(self, kind: str, asked: Mapping[str, Any]) -> tuple[Ask, dict[str, Any]]:
         """Take an ask's settings, if it is the newest of its page.
@@ -202,15 +240,18 @@ class Desk:
         """Begin the job."""
         ask = self.session.settle(settings)
         milling.check(ask.job)
-        return self.exporter.start(self.session.job_file(MODEL), ask.model.file)
+        masks = [ask.mask.file] if ask.mask else []
+        return self.exporter.start(self.session.job_file(MODEL), ask.model.file, *masks)
 
 
-def _described(model: Model | None) -> dict[str, Any] | None:
+def _described(model: Model | Sheet | None) -> dict[str, Any] | None:
     if model is None:
         return None
     return {
         "name": model.name,
-        "triangles": model.triangles,
-        "notes": list(model.shown.notes),
-        "up": model.up,
+        "kind": model.kind,
+        "about": model.about,
+        "notes": list(model.notes),
+        "idle": controls.idle(model.kind),
+        **({} if isinstance(model, Sheet) else {"triangles": model.triangles, "up": model.up}),
     }

@@ -57,15 +57,15 @@ class Exporter:
         """Whether a job is being made."""
         return self._thread is not None and self._thread.is_alive()
 
-    def start(self, job_file: str, model: Path) -> State:
+    def start(self, job_file: str, model: Path, *others: Path) -> State:
         """Begin a job.
 
         Parameters
         ----------
         job_file : str
             Text of a job file whose model lies in `MODEL`.
-        model : Path
-            The model's file.
+        model, *others : Path
+            The model's file, and those that it needs beside it.
 
         Raises
         ------
@@ -82,7 +82,10 @@ class Exporter:
         self.folder = folder
         state = self._tell({"state": "running", "stage": "start", "done": 0, "total": 1})
         self._thread = threading.Thread(
-            target=self._carry_out, args=(job_file, model, folder), name="export", daemon=True
+            target=self._carry_out,
+            args=(job_file, (model, *others), folder),
+            name="export",
+            daemon=True,
         )
         self._thread.start()
         return state
@@ -126,10 +129,10 @@ class Exporter:
         self._publish({"export": state})
         return state
 
-    def _carry_out(self, job_file: str, model: Path, folder: Path) -> None:
+    def _carry_out(self, job_file: str, files: tuple[Path, ...], folder: Path) -> None:
         try:
             with finished_together(folder, ALL) as scratch:
-                self._make(job_file, model, scratch)
+                self._make(job_file, files, scratch)
         except CancelledError:
             self._tell({"state": "cancelled"})
         except RelieffabError as error:
@@ -148,10 +151,11 @@ class Exporter:
                 }
             )
 
-    def _make(self, job_file: str, model: Path, scratch: Path) -> None:
+    def _make(self, job_file: str, files: tuple[Path, ...], scratch: Path) -> None:
         (scratch / JOB_FILE).write_text(job_file, encoding="utf-8")
         (scratch / MODEL).mkdir()
-        shutil.copyfile(model, scratch / MODEL / model.name)
+        for file in files:
+            shutil.copyfile(file, scratch / MODEL / file.name)
         made = scratch / "made"
         # From there, so that the report names the model as the job file does.
         self._follow([JOB_FILE, made.name], scratch)

@@ -7,13 +7,17 @@ from numpy.typing import NDArray
 
 from relieffab.cutter import Cutter
 from relieffab.grid import Grid
+from relieffab.job import reliefs, styles
+from relieffab.job.settings import Job
+from relieffab.layers.content import MESH
 from relieffab.layers.mesh import Mesh
 from relieffab.layers.model import Layers, Stroke
 from relieffab.panel.model import Panel
-from relieffab.relief.targets import Carving, line_depth
+from relieffab.relief.targets import line_depth
 from relieffab.relief.window import figure_size
 from relieffab.studio.frames import pack
-from relieffab.studio.preview import Solved, View
+from relieffab.studio.sheet import Sheet
+from relieffab.studio.solved import Solved, View
 from relieffab.studio.trial import Run, Trial, Tried
 from relieffab.toolpath.plan import NAMES
 
@@ -27,6 +31,11 @@ def mesh_frame(mesh: Mesh) -> bytes:
         "indices": mesh.faces.astype(np.uint32),
     }
     return pack({"triangles": len(mesh.faces)}, arrays)
+
+
+def sheet_frame(sheet: Sheet) -> bytes:
+    """Show a picture or an SVG, in its own pixels or units."""
+    return pack({"picture": True, "box": sheet.box}, {"colours": sheet.shown})
 
 
 def _bytes(image: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -68,27 +77,43 @@ def _place(grid: Grid) -> dict[str, Any]:
     return {"pitch_mm": grid.pitch, "origin_mm": list(grid.origin)}
 
 
-def preview_frame(
-    view: View, solved: Solved | None, carving: Carving, facts: dict[str, Any]
-) -> bytes:
+def preview_frame(view: View, solved: Solved | None, job: Job, facts: dict[str, Any]) -> bytes:
     """Show layers, and the relief where it was solved for."""
     arrays = _layers(view)
     if solved:
         arrays["heights"] = solved.relief.heights.astype(np.float32)
-    form = carving.form_length or 0.02 * max(figure_size(view.layers))
     header = {
         **facts,
         **_place(view.layers.grid),
         "matrix": view.part["matrix"],
-        "worked_out": {
-            "form_length": f"{form:.3g}mm",
-            "line_depth": f"{line_depth(carving):.3g}mm",
+        "picture": view.facts,
+        "worked_out": _worked_out(view, job),
+    }
+    return pack(header, arrays)
+
+
+def _worked_out(view: View, job: Job) -> dict[str, str]:
+    """Say what settings left empty come to."""
+    carving, style = reliefs.carving_of(job), styles.style_of(job)
+    form = carving.form_length or 0.02 * max(figure_size(view.layers))
+    found = {"form_length": f"{form:.3g}mm", "line_depth": f"{line_depth(carving):.3g}mm"}
+    if not style.plain:
+        found |= {
+            "mark_spacing": f"{style.chisel.spacing:g}mm",
+            "mark_depth": f"{style.chisel.depth:g}mm",
+            "mark_cutter": style.tool.name,
+        }
+    if view.kind == MESH:
+        found |= {
             "azimuth": f"{view.part['azimuth_deg']:g}deg",
             "elevation": f"{view.part['elevation_deg']:g}deg",
             "up": view.part["up"],
-        },
-    }
-    return pack(header, arrays)
+        }
+    else:
+        found |= {"image": view.kind}
+    if "depth_mm" in view.facts:
+        found |= {"image_depth": f"{view.facts['depth_mm']:.3g}mm"}
+    return found
 
 
 def panel_frame(panel: Panel, facts: dict[str, Any]) -> bytes:
@@ -97,7 +122,9 @@ def panel_frame(panel: Panel, facts: dict[str, Any]) -> bytes:
         "positions": panel.vertices.astype(np.float32),
         "indices": panel.faces.astype(np.uint32),
     }
-    return pack({**facts, "relief": True}, arrays)
+    low, high = panel.vertices.min(axis=0), panel.vertices.max(axis=0)
+    extent = [*(high - low)[:2].tolist(), -float(low[2])]
+    return pack({**facts, "relief": True, "extent_mm": extent}, arrays)
 
 
 def carved_frame(trial: Trial, at: float) -> bytes:

@@ -36,10 +36,22 @@ class Model:
     triangles: int
     up: str
 
+    kind = "mesh"
+
     @property
     def name(self) -> str:
         """Of its file."""
         return self.file.name
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done to read it."""
+        return self.shown.notes
+
+    @property
+    def about(self) -> str:
+        """What it is, in a few words."""
+        return f"{self.triangles:,} triangles"
 
 
 def lightened(mesh: Mesh, file: Path) -> Model:

@@ -9,8 +9,11 @@ import sys
 from pathlib import Path
 
 from relieffab.errors import InputError, RelieffabError
+from relieffab.layers.art.svg import read_svg
+from relieffab.layers.content import FONT, PICTURE, SVG, content_of
+from relieffab.layers.image.read import read_picture
 from relieffab.layers.mesh import read_mesh
-from relieffab.studio.model import lightened, save
+from relieffab.studio import model, sheet
 
 MEMORY = 6 << 30
 """Bytes of address space."""
@@ -27,14 +30,30 @@ def _limit() -> None:
 
 def _parse(file: Path, folder: Path) -> None:
     try:
-        save(lightened(read_mesh(file), file), folder)
+        _read(file, folder)
     except MemoryError as fault:
         raise InputError(
             "the model takes more memory than the studio gives it",
             expected=f"at most {MEMORY >> 30} GiB",
             where=file.name,
-            hint="fewer triangles, or the command line: relieffab make",
+            hint="a smaller one, or the command line: relieffab make",
         ) from fault
+
+
+def _read(file: Path, folder: Path) -> None:
+    kind = content_of(file)
+    if kind == FONT:
+        raise InputError(
+            "a font is there to write with, which the studio cannot do yet",
+            where=file.name,
+            hint="the command line: relieffab make FONT --text WORDS",
+        )
+    if kind == PICTURE:
+        sheet.save(sheet.sheet_of_picture(read_picture(file), file), folder)
+    elif kind == SVG:
+        sheet.save(sheet.sheet_of_art(read_svg(file), file), folder)
+    else:
+        model.save(model.lightened(read_mesh(file), file), folder)
 
 
 def main(arguments: list[str]) -> int:

@@ -10,10 +10,13 @@ from types import FrameType
 from typing import TYPE_CHECKING
 
 from relieffab.errors import InputError
-from relieffab.job.settings import Chosen
+from relieffab.job.seen import check_settings
+from relieffab.job.settings import Chosen, job_of
+from relieffab.layers.content import content_of
 from relieffab.studio.app import make_app
 from relieffab.studio.desk import Desk
 from relieffab.studio.guard import Guard, new_token
+from relieffab.studio.session import OF_FILES
 
 if TYPE_CHECKING:
     import uvicorn
@@ -79,8 +82,7 @@ def serve(
         port, token = taken.getsockname()[1], new_token()
         desk = Desk(chosen, output)
         try:
-            if chosen["model"].value is not None:
-                desk.open(Path(chosen["model"].value).resolve(), up=chosen["up"].text)
+            _open(desk, chosen)
             address = f"http://{HOST}:{port}/{token}/"
             guarded = Guard(make_app(desk), token=token, port=port)
             config = uvicorn.Config(
@@ -96,6 +98,16 @@ def serve(
             return
         finally:
             desk.close()
+
+
+def _open(desk: Desk, chosen: Mapping[str, Chosen]) -> None:
+    """Open the model that was named, and its mask."""
+    if chosen["model"].value is not None:
+        file = Path(chosen["model"].value).resolve()
+        check_settings(job_of(chosen), content_of(file))
+        desk.open(file, **{name: chosen[name].text for name in OF_FILES if name != "mask"})
+    if chosen["mask"].value is not None:
+        desk.open_mask(Path(chosen["mask"].value).resolve())
 
 
 def _server(config: "uvicorn.Config", desk: Desk) -> "uvicorn.Server":

@@ -3,15 +3,20 @@
 import shutil
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from relieffab.errors import InputError
-from relieffab.job.settings import Chosen, Job, job_of, resolve
+from relieffab.job.load import FILES
+from relieffab.job.seen import OF_MESHES
+from relieffab.job.settings import Chosen, job_of, resolve
+from relieffab.job.table import TABLE
 from relieffab.studio import controls
+from relieffab.studio.ask import Ask
 from relieffab.studio.model import Model
 from relieffab.studio.preview import FINE, Preview
+from relieffab.studio.sheet import Sheet
 from relieffab.studio.trial import Trial
 
 LONGEST = 500
@@ -19,14 +24,8 @@ LONGEST = 500
 
 
 _APART = ("model", "paper")  # opened by itself; of templates alone
-
-
-@dataclass(frozen=True)
-class Ask:
-    """What a person looks at: a model and the settings for it."""
-
-    model: Model
-    job: Job
+OF_FILES = ("up", *controls.OF_PICTURES)
+"""Settings that are of one model's file, and not of the next one's."""
 
 
 class Session:
@@ -39,10 +38,11 @@ class Session:
     """
 
     def __init__(self, chosen: Mapping[str, Chosen]) -> None:
-        self.texts = _offered(chosen)
-        self.model: Model | None = None
+        self.texts = {**_offered(chosen), "mask": ""}
+        self.model: Model | Sheet | None = None
+        self.masks: dict[str, Sheet] = {}
         self.preview = Preview()
-        self.fine = Preview(FINE, whole=True)
+        self.fine = Preview(FINE, whole=True, figures=self.preview.figures)
         self.trial = Trial()
         self.scratch = Path(tempfile.mkdtemp(prefix="relieffab-studio-"))
 
@@ -50,16 +50,32 @@ class Session:
         """Take away what lies on the disk."""
         shutil.rmtree(self.scratch, ignore_errors=True)
 
-    def open(self, model: Model, *, up: str = "") -> None:
-        """Take a model in place of the one before; which way is up goes with it."""
-        before, self.model = self.model, model
-        self.texts = {**self.texts, "up": up}
-        if before and before.file.parent.parent == self.scratch:
-            shutil.rmtree(before.file.parent, ignore_errors=True)
+    def open(self, model: Model | Sheet, **of_file: str) -> None:
+        """Take a model in place of the one before; `OF_FILES` are as given, or as by default."""
+        before = [one.file for one in (self.model, *self.masks.values()) if one]
+        self.model, self.masks = model, {}
+        defaults = {name: TABLE[name].default for name in OF_FILES}
+        self.texts = {**self.texts, **defaults, **of_file}
+        for file in before:
+            if file.parent.parent == self.scratch:
+                shutil.rmtree(file.parent, ignore_errors=True)
 
     def new_place(self) -> Path:
         """Make a folder for a model file."""
         return Path(tempfile.mkdtemp(dir=self.scratch))
+
+    def place_of_mask(self, name: str) -> Path:
+        """Make a place for a mask; its name is neither the model's nor another mask's."""
+        stem, _, suffix = name.rpartition(".")
+        taken = {one.name for one in (self.model, *self.masks.values()) if one}
+        names = (f"{stem}-{k}.{suffix}" if k else name for k in range(len(taken) + 1))
+        return self.new_place() / next(one for one in names if one not in taken)
+
+    def take_mask(self, mask: Sheet) -> str:
+        """Keep a mask of the model, and choose it; its name is the setting's text."""
+        self.masks[mask.name] = mask
+        self.texts = {**self.texts, "mask": mask.name}
+        return mask.name
 
     def settle(self, given: Mapping[str, Any]) -> Ask:
         """Take settings as the page has them, and say what is asked with them.
@@ -73,10 +89,18 @@ class Session:
         if self.model is None:
             raise InputError("no model is open", hint="drop a model file on the page")
         texts = self.read(given)
-        job = job_of(resolve([("studio", texts)]))
+        job = job_of(resolve([("studio", self._said_of_it(texts))]))
         self.texts = texts
-        up = job.up or self.model.up
-        return Ask(self.model, replace(job, model=self.model.name, up=up))
+        up = None if isinstance(self.model, Sheet) else job.up or self.model.up
+        mask = self.masks[job.mask] if job.mask else None
+        return Ask(self.model, replace(job, model=self.model.name, up=up), mask)
+
+    def _said_of_it(self, texts: Mapping[str, str]) -> dict[str, str]:
+        """Leave at their defaults those settings that say nothing of a model of this kind."""
+        kind = self.model.kind if self.model else "mesh"
+        idle: tuple[str, ...] = OF_MESHES if kind != "mesh" else ()
+        idle += controls.OF_PICTURES if kind in ("mesh", "svg") else ()
+        return {**texts, **{name: TABLE[name].default for name in idle}}
 
     def read(self, given: Mapping[str, Any]) -> dict[str, str]:
         """Lay settings over those there are.
@@ -91,6 +115,8 @@ class Session:
                 raise InputError("there is no such setting in the studio", found=repr(name)[:60])
             if not isinstance(text, str) or len(text) > LONGEST:
                 raise InputError("the setting is not a text", found=repr(text)[:60], where=name)
+            if name == "mask" and text and text not in self.masks:
+                raise InputError("there is no such mask", found=repr(text)[:60], where=name)
             if text != self.texts[name]:
                 _check_setting(name, text)
         return {**self.texts, **given}
@@ -101,14 +127,15 @@ class Session:
         Parameters
         ----------
         folder : str
-            Where the model lies, as seen from the job file; beside it if not given.
+            Where the model and its mask lie, as seen from the job file; beside it if not given.
         """
         if self.model is None:
             raise InputError("no model is open", hint="drop a model file on the page")
-        model = f"{folder}/{self.model.name}" if folder else self.model.name
+        texts = {"model": self.model.name, **self._said_of_it(self.texts)}
         lines = ["# relieffab make job.toml -o FOLDER", ""]
-        for name, text in {"model": model, **self.texts}.items():
-            lines.append(f"{name} = {_quoted(text)}")
+        for name, text in texts.items():
+            inside = folder and text and name in FILES
+            lines.append(f"{name} = {_quoted(f'{folder}/{text}' if inside else text)}")
         return "\n".join(lines) + "\n"
 
 

@@ -17,7 +17,7 @@ from relieffab.job import milling, programs
 from relieffab.job.settings import Job
 from relieffab.progress import Progress
 from relieffab.stock import Stock
-from relieffab.studio.preview import Solved
+from relieffab.studio.solved import Solved
 from relieffab.toolpath.path import Toolpath
 
 Floats = NDArray[np.float64]
@@ -88,8 +88,15 @@ class Trial:
     def carry_out(self, solved: Solved, job: Job, progress: Progress) -> Tried:
         """Plan the programs of a relief, judge them and carve a virtual stock."""
         milling.check(job)
+        if job.round is not None:
+            raise InputError(
+                "the programs of a round stock are not shown here",
+                where="round",
+                hint="Export makes them, and judges them",
+            )
         relief, strokes = solved.relief, solved.view.layers.strokes
-        planned = milling.plan_paths(relief, strokes, job, progress)
+        marks = [solved.marks] if solved.marks else []
+        planned = milling.plan_paths(relief, strokes, job, progress, marks=marks)
         whole = milling.setup_of(job, relief.depth)
         slab = Slab.whole(relief.grid, whole.stock)
         fitted = [

@@ -8,14 +8,20 @@ import tempfile
 from pathlib import Path
 
 from relieffab.errors import InputError
+from relieffab.layers.image.picture import Picture
+from relieffab.layers.image.read import SUFFIXES as PICTURES
 from relieffab.layers.mesh import USUAL_UP
+from relieffab.studio import model, sheet
 from relieffab.studio.children import Children
-from relieffab.studio.model import Model, load
+from relieffab.studio.model import Model
+from relieffab.studio.sheet import Sheet
 
 LARGEST = 512 << 20
 """Bytes of a model file."""
 PATIENCE = 180.0
 """Seconds that parsing may take."""
+TAKEN = (*USUAL_UP, *PICTURES, ".svg")
+"""How files end that may be models."""
 
 
 def safe_name(name: str) -> str:
@@ -33,10 +39,10 @@ def safe_name(name: str) -> str:
     """
     last = re.split(r"[/\\]", name)[-1]
     stem, dot, suffix = last.rpartition(".")
-    if not dot or f".{suffix.lower()}" not in USUAL_UP:
+    if not dot or f".{suffix.lower()}" not in TAKEN:
         raise InputError(
             "this is not a model file",
-            expected=" ".join(USUAL_UP),
+            expected=" ".join(TAKEN),
             found=repr(last[-40:]),
         )
     plain = re.sub(r"[^A-Za-z0-9]+", "-", stem).strip("-")[:60] or "model"
@@ -50,11 +56,11 @@ def refuse_size(count: int) -> None:
             "the model file is too large for the studio",
             expected=f"at most {LARGEST >> 20} MB",
             found=f"{count / (1 << 20):,.0f} MB or more",
-            hint="fewer triangles, or the command line: relieffab make",
+            hint="a smaller one, or the command line: relieffab make",
         )
 
 
-def parse(file: Path, children: Children) -> Model:
+def parse(file: Path, children: Children) -> Model | Sheet:
     """Read a model in a process of its own, within limits of time and memory.
 
     Raises
@@ -65,22 +71,46 @@ def parse(file: Path, children: Children) -> Model:
     with tempfile.TemporaryDirectory(prefix="relieffab-") as folder:
         with children.child("relieffab.studio.parse", [str(file), folder]) as process:
             try:
-                told, _ = process.communicate(timeout=PATIENCE)
+                said, _ = process.communicate(timeout=PATIENCE)
             except subprocess.TimeoutExpired:
                 raise _too_long(file) from None
         if process.returncode == 0:
-            return load(Path(folder), file)
+            kind = sheet if (Path(folder) / "sheet.json").is_file() else model
+            return kind.load(Path(folder), file)
     if process.returncode == -signal.SIGXCPU:
         raise _too_long(file)
     try:
-        fault = json.loads(told)
+        fault: dict[str, str] = json.loads(said)
     except ValueError:
         raise InputError(
             "the model file cannot be read",
             found=f"reading it ended with status {process.returncode}",
             where=file.name,
         ) from None
-    raise InputError(fault.pop("message"), **{**fault, "where": file.name})
+    # What a library says may hold the whole path.
+    told = {name: text.replace(str(file), file.name) for name, text in fault.items()}
+    raise InputError(told.pop("message"), **{**told, "where": file.name})
+
+
+def parse_mask(file: Path, children: Children, of: Model | Sheet | None) -> Sheet:
+    """Read a mask as any model, and see that it fits the picture.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, does not fit, or there is no picture that it could be of.
+    """
+    if not isinstance(of, Sheet) or not isinstance(of.flat, Picture):
+        raise InputError("only a picture has a mask", hint="open a picture first", where=file.name)
+    mask = parse(file, children)
+    if not isinstance(mask, Sheet) or mask.shape != of.shape:
+        raise InputError(
+            "the mask does not fit the picture",
+            expected=f"a picture of {of.shape[1]} x {of.shape[0]} pixels",
+            found=mask.about,
+            where=file.name,
+        )
+    return mask
 
 
 def _too_long(file: Path) -> InputError:
@@ -88,5 +118,5 @@ def _too_long(file: Path) -> InputError:
         "the model takes too long to read",
         expected=f"at most {PATIENCE:g} s",
         where=file.name,
-        hint="fewer triangles, or the command line: relieffab make",
+        hint="a smaller one, or the command line: relieffab make",
     )

@@ -6,7 +6,8 @@ Each kind of setting is dragged through a few positions, after one that does not
 row gives the median and the worst of the times to a finished frame, as the worker takes
 them; the processor's time, which other programs on the machine do not lengthen; and the
 median of making the same from nothing in the same run, with its ratio.  `NUMBA_NUM_THREADS`
-says how many threads there are.
+says how many threads there are.  Then each style: its depth dragged, without its marks, and
+all of it once the hand rests; and programs.
 """
 
 import os
@@ -17,11 +18,12 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 
-from relieffab.job import reliefs
 from relieffab.job.settings import Job, default_job
 from relieffab.layers.mesh import make_mesh, read_mesh
 from relieffab.progress import silent
+from relieffab.relief.style.names import STYLES
 from relieffab.studio import looks
+from relieffab.studio.ask import Ask
 from relieffab.studio.model import Model, lightened
 from relieffab.studio.preview import FINE, WIDTH, Preview
 from relieffab.studio.trial import Trial
@@ -43,10 +45,10 @@ DRAGS = {
 
 def frame(preview: Preview, model: Model, job: Job) -> bytes:
     """Make what the page gets."""
-    view = preview.view(model, job, silent)
+    view = preview.view(Ask(model, job), silent)
     solved = preview.relief(view, job, silent)
     facts = {"ask": 1, "seconds": preview.seconds, "notes": []}
-    return looks.preview_frame(view, solved, reliefs.carving_of(job), facts)
+    return looks.preview_frame(view, solved, job, facts)
 
 
 def timed(preview: Preview, model: Model, job: Job) -> tuple[float, float]:
@@ -95,13 +97,33 @@ def main() -> None:
             print(" " * 22 + "wall  worst      cpu  worst     anew    cpu   ratio (ms, cpu)")
             for name in DRAGS:
                 drag(name, model, base, width, whole=whole)
+        for name in STYLES[1:]:
+            styled(name, model, base)
         trial(model, base)
+
+
+def styled(name: str, model: Model, base: Job) -> None:
+    """Time a style: a depth that is dragged, and the marks once the hand rests."""
+    job = replace(base, style=name)
+    hand, rest, took = Preview(), Preview(FINE, whole=True), []
+    for k in range(STEPS + 1):
+        took.append(timed(hand, model, replace(job, depth=2 + 0.25 * k)))
+    start, used = time.perf_counter(), time.process_time()
+    view = rest.view(Ask(model, job), silent)
+    rest.marked(view, job, silent)
+    wall, cpu = time.perf_counter() - start, time.process_time() - used
+    moved, of_clock = (median(column) for column in zip(*took[1:], strict=True))
+    print(
+        f"{name:<20} {moved:6.0f} ms dragged, {of_clock:.0f} cpu; "
+        f"at rest {wall:.1f} s, {cpu:.1f} cpu, {view.layers.grid.cols} wide: "
+        + ", ".join(f"{k} {v:.1f}" for k, v in rest.seconds.items())
+    )
 
 
 def trial(model: Model, base: Job) -> None:
     """Time programs at the page's size, and moments of them."""
     preview, tried = Preview(), Trial()
-    solved = preview.relief(preview.view(model, base, silent), base, silent)
+    solved = preview.relief(preview.view(Ask(model, base), silent), base, silent)
     tried.carry_out(solved, base, silent)
     start, used = time.perf_counter(), time.process_time()
     last = tried.carry_out(solved, base, silent)

@@ -6,13 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 from starlette.testclient import TestClient
 
 from relieffab.job.settings import default_job, resolve
+from relieffab.layers.image.read import read_picture
 from relieffab.studio.app import make_app
 from relieffab.studio.desk import Desk
 from relieffab.studio.guard import Guard
 from relieffab.studio.model import lightened
+from relieffab.studio.sheet import sheet_of_picture
 
 TOKEN, PORT = "a-token-nobody-guesses", 8765
 SMALL = {
@@ -39,6 +42,23 @@ def ball(tmp_path_factory):
 def opened(model):
     """The bumpy ellipsoid as a studio has it."""
     return lightened(model, Path("bumps.obj"))
+
+
+@pytest.fixture(scope="session")
+def bump(tmp_path_factory):
+    """The depth map of a bumpy dome, of 16 bits."""
+    i, j = np.indices((90, 120)) - np.array([44.5, 59.5])[:, None, None]
+    height = 1 - (i / 40) ** 2 - (j / 52) ** 2 + 0.1 * np.sin(i / 4) * np.sin(j / 5)
+    grey = np.where(height > 0, 4000 + 50000 * np.maximum(height, 0), 0)
+    path = tmp_path_factory.mktemp("picture") / "bump.png"
+    Image.fromarray(grey.astype(np.uint16)).save(path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def picture(bump):
+    """That map as a studio has it."""
+    return sheet_of_picture(read_picture(bump), bump)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
 from starlette.testclient import TestClient
 
 from relieffab.studio import app as module
@@ -81,6 +82,41 @@ def test_uploads_are_limited_by_what_they_say_and_by_what_they_are(client, desk,
     )
     assert list(desk.session.scratch.rglob("*.stl")) == []
     assert client.get("state").status_code == 200
+
+
+def test_a_picture_comes_in_and_its_mask(client, bump, desk, tmp_path):
+    state = client.post("model", params={"name": "bump.png"}, content=bump.read_bytes()).json()
+    assert state["model"]["kind"] == "depth"
+    assert state["model"]["about"] == "PNG, 120 x 90 pixels, 16 bits"
+    assert "azimuth" in state["model"]["idle"]
+    shown, arrays = frame(client.get("mesh"))
+    assert shown["picture"] and shown["box"] == [-0.5, -0.5, 119.5, 89.5]
+    assert arrays["colours"].shape == (90, 120, 4)
+    whole, first = frame(client.post("preview", json={}))
+    assert (whole["picture"]["kind"], whole["picture"]["mask"]) == ("depth", "even background")
+    assert whole["worked_out"]["image"] == "depth" and "azimuth" in whole["idle"]
+    assert first["heights"].min() >= -1.5
+
+    half = np.zeros((90, 120), np.uint8)
+    half[:, :60] = 255
+    Image.fromarray(half).save(tmp_path / "bump.png")
+    Image.fromarray(half[:, 30:]).save(tmp_path / "narrow.png")
+    narrow = (tmp_path / "narrow.png").read_bytes()
+    told = fault(client.post("mask", params={"name": "narrow.png"}, content=narrow))
+    assert "does not fit" in told["message"] and "90 x 90" in told["found"]
+    sent = (tmp_path / "bump.png").read_bytes()
+    answer = client.post("mask", params={"name": "bump.png"}, content=sent).json()
+    assert answer == {"mask": "bump-1.png"}
+    assert len(list(desk.session.scratch.rglob("*.png"))) == 2
+    masked, second = frame(client.post("preview", json={"settings": answer}))
+    assert masked["picture"]["mask"] == "mask file"
+    assert second["mask"].sum() != first["mask"].sum()
+    assert 'mask = "bump-1.png"' in client.get("job.toml").text
+
+
+def test_only_a_picture_has_a_mask(loaded, bump):
+    told = fault(loaded.post("mask", params={"name": "m.png"}, content=bump.read_bytes()))
+    assert "only a picture has a mask" in told["message"]
 
 
 def test_the_scarab_stands_up(client, monkeypatch, model):

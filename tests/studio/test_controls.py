@@ -2,7 +2,7 @@ import pytest
 
 from relieffab.job.settings import default_job, resolve
 from relieffab.job.table import TABLE
-from relieffab.studio.controls import controls, listed
+from relieffab.studio.controls import controls, idle, listed
 
 CONTROLS = {control["name"]: control for control in controls()}
 
@@ -19,6 +19,7 @@ def test_every_position_of_a_control_can_be_read(name):
         assert control["default"] in [*control["choices"], ""]
         texts = control["choices"]
     else:
+        assert control["kind"] in ("text", "file")
         texts = [control["default"]]
     for text in texts:
         assert resolve([("test", {name: text})])[name].text == text
@@ -35,6 +36,19 @@ def test_defaults_lie_within_their_ranges():
 def test_the_first_group_is_what_a_relief_is_judged_by():
     first = [c["name"] for c in controls() if c["group"] == controls()[0]["group"]]
     assert {"depth", "form_length", "line_depth", "line_width", "line_detail"} == set(first)
+
+
+def test_what_has_nothing_to_say_of_a_model_rests_with_a_reason():
+    assert set(idle("mesh")) == {"image", "image_depth", "mask"}
+    for kind in ("photo", "depth", "normal", "drawing", "svg"):
+        found = idle(kind)
+        assert {"view", "azimuth", "up"} <= set(found) < set(CONTROLS)
+        assert all(found.values())
+        assert ("image_depth" in found) == (kind != "depth")
+        assert ("mask" in found) == (kind in ("drawing", "svg"))
+        assert ("form_length" in found) == (kind in ("drawing", "svg"))
+        assert not {"depth", "style", "line_depth", "size"} & set(found)
+    assert set(idle("mesh", bent=True)) > {"frame", "thickness", "solid"}
 
 
 def test_profiles_are_named_with_words_for_people():

@@ -115,3 +115,13 @@ def test_a_bad_model_or_setting_ends_it_at_once(capsys, tmp_path):
         assert run(["studio", *words, "-o", str(tmp_path), "--no-browser"]) == 2
     assert "no faces" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [letter]
+
+
+def test_settings_that_say_nothing_of_the_model_end_it_at_once(capsys, bump, ball, tmp_path):
+    for words, told in (
+        ([str(bump), "--azimuth", "30deg"], "--azimuth says nothing of a model of this kind"),
+        ([str(ball), "--mask", str(bump)], "--mask says nothing of a model of this kind"),
+        (["--mask", str(bump)], "only a picture has a mask"),
+    ):
+        assert run(["studio", *words, "-o", str(tmp_path / "jobs"), "--no-browser"]) == 2
+        assert told in capsys.readouterr().err

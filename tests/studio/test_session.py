@@ -117,15 +117,44 @@ def test_which_way_is_up_is_the_models_unless_it_is_said(session, opened):
     assert session.settle({"up": "z"}).job.up == "z"
 
 
-OF_PICTURES = {"text", "image", "image_depth", "mask"}
-ROUND = {"round", "bore", "floor", "curved"}
-STYLED = {"style", "mark_spacing", "mark_depth", "mark_direction", "mark_cutter", "ground"}
+def test_settings_of_another_kind_of_model_are_left_out_of_the_job(session, opened, picture):
+    session.settle({"azimuth": "30deg", "image_depth": "9mm"})
+    assert session.settle({}).job.image_depth is None
+    session.open(picture, image="depth")
+    ask = session.settle({"image_depth": "9mm"})
+    assert (ask.job.azimuth, ask.job.up, ask.job.image, ask.job.image_depth) == (
+        None, None, "depth", 9.0,
+    )  # fmt: skip
+    read = tomllib.loads(session.job_file())
+    assert (read["model"], read["azimuth"], read["image_depth"]) == ("bump.png", "", "9mm")
+    session.open(opened)
+    assert session.settle({}).job.azimuth == 30.0
+    assert session.texts["image_depth"] == session.texts["image"] == ""
+
+
+def test_a_mask_is_one_of_those_sent_and_goes_with_its_picture(session, opened, picture):
+    session.open(picture)
+    with pytest.raises(InputError, match="no such mask") as told:
+        session.settle({"mask": "/etc/passwd"})
+    assert told.value.parts["where"] == "mask"
+    places = [session.place_of_mask("bump.png") for _ in range(2)]
+    assert [place.name for place in places] == ["bump-1.png", "bump-1.png"]
+    mask = replace(picture, file=places[0])
+    assert session.take_mask(mask) == "bump-1.png"
+    assert session.place_of_mask("bump.png").name == "bump-2.png"
+    assert session.settle({}).mask is mask
+    assert session.settle({"mask": ""}).mask is None
+    assert session.settle({"mask": "bump-1.png"}).mask is mask
+    assert tomllib.loads(session.job_file("model"))["mask"] == "model/bump-1.png"
+    session.open(opened)
+    assert session.texts["mask"] == ""
+    assert not places[0].parent.exists()
 
 
 def test_what_the_page_cannot_show_is_refused_before_it_opens():
     left_out = set(TABLE) - set(controls.OFFERED) - {"model", "paper"}
-    assert left_out == OF_PICTURES | ROUND | STYLED
+    assert left_out == {"curved", "text"}
     assert len(set(controls.OFFERED)) == len(controls.OFFERED)
-    with pytest.raises(InputError, match="cannot show mark-depth") as refused:
-        Session(resolve([("flag", {"mark_depth": "0.2mm"})]))
+    with pytest.raises(InputError, match="cannot show curved") as refused:
+        Session(resolve([("flag", {"curved": "60mm"})]))
     assert refused.value.parts["where"] == "flag"

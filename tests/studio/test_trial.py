@@ -4,6 +4,7 @@ import pytest
 from relieffab.errors import InputError
 from relieffab.gcode.slab import Slab
 from relieffab.progress import silent
+from relieffab.studio.ask import Ask
 from relieffab.studio.preview import Preview
 from relieffab.studio.trial import Trial
 
@@ -11,7 +12,7 @@ from relieffab.studio.trial import Trial
 @pytest.fixture(scope="module")
 def tried(opened, job):
     preview = Preview(96)
-    solved = preview.relief(preview.view(opened, job(), silent), job(), silent)
+    solved = preview.relief(preview.view(Ask(opened, job()), silent), job(), silent)
     trial = Trial()
     trial.carry_out(solved, job(), silent)
     return trial
@@ -63,7 +64,28 @@ def test_without_a_trial_there_is_nothing_to_see():
 def test_positions_are_tried_part_by_part(opened, job):
     long = job(size="400x40mm", margin="3mm", positions="index", resolution="96x72")
     preview = Preview(96)
-    solved = preview.relief(preview.view(opened, long, silent), long, silent)
+    solved = preview.relief(preview.view(Ask(opened, long), silent), long, silent)
     last = Trial().carry_out(solved, long, silent)
     assert {run.file[0] for run in last.runs} <= {"1", "2"}
     assert all(run.placing for run in last.runs)
+
+
+def test_marks_are_the_last_program(opened, job):
+    styled = job(style="gouge", mark_spacing="2mm", mark_depth="0.3mm", mark_cutter="ball-3.175")
+    preview = Preview(96)
+    solved = preview.marked(preview.view(Ask(opened, styled), silent), styled, silent)
+    last = Trial().carry_out(solved, styled, silent)
+    assert [run.file for run in last.runs][-1] == "04-marks.nc"
+    assert last.runs[-1].path.cutter.name == "ball-3.175"
+    assert last.verdict.findings == ()
+    carved, smooth = last.verdict.carved, solved.marks.smooth.heights
+    marked = (smooth - solved.relief.heights) > 0.2
+    assert (smooth - carved)[marked].mean() > 0.2
+
+
+def test_programs_of_a_round_stock_are_not_shown(opened, job):
+    column = job(round="20mm", machine="3018-prover-rotary", size="30x30mm")
+    preview = Preview(96)
+    solved = preview.relief(preview.view(Ask(opened, column), silent), column, silent)
+    with pytest.raises(InputError, match="not shown here"):
+        Trial().carry_out(solved, column, silent)

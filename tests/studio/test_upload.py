@@ -64,6 +64,7 @@ TRAPS = {
     "lies.stl": lambda path: path.write_bytes(bytes(80) + struct.pack("<I", 2**32 - 1) + bytes(50)),
     "not.3mf": lambda path: path.write_bytes(b"PK\x03\x04 no more"),
     "nan.ply": _nan,
+    "lies.png": lambda path: path.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(range(99))),
     "noise.ply": lambda path: path.write_bytes(
         b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\n"
         b"property float x\nproperty float y\nproperty float z\nend_header\n" + bytes(100)

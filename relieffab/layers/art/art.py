@@ -68,6 +68,11 @@ class Art:
     notes: tuple[str, ...] = ()
 
     @property
+    def filled(self) -> bool:
+        """Whether any area is to be sunk."""
+        return any(mark.fill and not mark.paper for mark in self.marks)
+
+    @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Least X and Y, largest X and Y, strokes' widths included."""
         low, high = [], []

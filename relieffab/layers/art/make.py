@@ -1,11 +1,14 @@
 """Vector art to Layers: what `layers.make` is for a mesh."""
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.layers.art.art import Art
+from relieffab.layers.art.art import Art, Mark
 from relieffab.layers.art.fill import inside
 from relieffab.layers.image.ink import level_layers
 from relieffab.layers.lines.drawing import Drawing
@@ -52,6 +55,96 @@ def placed_on(art: Art, size: tuple[float, float], *, margin: float) -> Matrix:
     return [[scale, 0.0, x], [0.0, -scale, y], [0.0, 0.0, 1.0]]
 
 
+@dataclass(frozen=True, eq=False)
+class ArtSight:
+    """What is seen of art on the panel: filled areas are its figure, strokes its lines.
+
+    Parameters
+    ----------
+    art : Art
+    grid : Grid
+    matrix : 3 x 3
+        From `placed_on`.
+    outlined : bool
+        Whether fills are drawn by their outlines instead.
+    inked : bool
+        Whether strokes are drawn at all.
+    """
+
+    art: Art
+    grid: Grid
+    matrix: Matrix
+    outlined: bool = False
+    inked: bool = True
+
+    @property
+    def lines_only(self) -> bool:
+        """Whether there is no area to sink."""
+        return not self.art.filled
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a person should know of it, besides what the art tells itself."""
+        return ()
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What report.json says of it."""
+        return {"kind": self.art.kind, "marks": len(self.art.marks)}
+
+    def _drawn(self, mark: Mark, tolerance: float) -> list[Stroke]:
+        """Draw the strokes of a mark, and the outlines of its area."""
+        if mark.width is None and (mark.fill is None or mark.paper):
+            return []
+        kind = DRAWN if mark.width is not None or self.outlined else "outline"
+        if kind == DRAWN and not self.inked:
+            return []
+        return [
+            _stroke(
+                _line(ring.points, self.matrix), ring.closed or mark.width is None, tolerance, kind
+            )
+            for ring in mark.rings
+        ]
+
+    def strokes(self, drawing: Drawing) -> tuple[Stroke, ...]:
+        """Draw it, mark by mark."""
+        return tuple(
+            stroke for mark in self.art.marks for stroke in self._drawn(mark, drawing.tolerance)
+        )
+
+    def layers(self, strokes: tuple[Stroke, ...], drawing: Drawing) -> Layers:
+        """Put the images together; a stroke is as wide as the page says.
+
+        Raises
+        ------
+        InputError
+            If nothing is dark or large enough to be seen.
+        """
+        filled = np.zeros(self.grid.shape, bool)
+        widths: dict[float, list[Stroke]] = {}
+        for mark in self.art.marks:
+            if mark.fill and not self.outlined:
+                lines = [_line(ring.points, self.matrix) for ring in mark.rings]
+                area = inside(lines, mark.fill, self.grid)
+                filled = filled & ~area if mark.paper else filled | area
+            drawn = [s for s in self._drawn(mark, drawing.tolerance) if s.kind == DRAWN]
+            scale = self.matrix[0][0]
+            width = drawing.width if mark.width is None else mark.width * scale
+            widths.setdefault(width, []).extend(drawn)
+        ink = np.zeros(self.grid.shape)
+        for width, some in widths.items():
+            ink = np.maximum(ink, line_image(some, self.grid, width=width))
+        ink = spread_ink(ink, drawing.spread, self.grid)
+        mask = filled if filled.any() else ink > 0
+        if not mask.any():
+            raise InputError(
+                "nothing of the drawing is dark enough, or large enough, to be seen",
+                where=self.art.name,
+                hint="a finer resolution, or black fills and strokes",
+            )
+        return level_layers(self.grid, mask, ink, strokes)
+
+
 def layers_of_art(
     art: Art,
     grid: Grid,
@@ -79,38 +172,8 @@ def layers_of_art(
         Level; the mask is what is filled, or the ink where nothing is.
     """
     drawing = drawing or Drawing()
-    filled = np.zeros(grid.shape, bool)
-    widths: dict[float, list[Stroke]] = {}
-    strokes = []
-    for mark in art.marks:
-        lines = [_line(ring.points, matrix) for ring in mark.rings]
-        if mark.fill and not outlined:
-            area = inside(lines, mark.fill, grid)
-            filled = filled & ~area if mark.paper else filled | area
-        outline = mark.fill is not None and not mark.paper
-        drawn = [
-            _stroke(line, ring.closed or mark.width is None, drawing.tolerance,
-                    DRAWN if mark.width is not None or outlined else "outline")
-            for line, ring in zip(lines, mark.rings, strict=True)
-        ]  # fmt: skip
-        if mark.width is not None:
-            widths.setdefault(mark.width * matrix[0][0], []).extend(drawn)
-        elif outline and outlined:
-            widths.setdefault(drawing.width, []).extend(drawn)
-        if mark.width is not None or outline:
-            strokes += drawn
-    ink = np.zeros(grid.shape)
-    for width, some in widths.items():
-        ink = np.maximum(ink, line_image(some, grid, width=width))
-    ink = spread_ink(ink, drawing.spread, grid)
-    mask = filled if filled.any() else ink > 0
-    if not mask.any():
-        raise InputError(
-            "nothing of the drawing is dark enough, or large enough, to be seen",
-            where=art.name,
-            hint="a finer resolution, or black fills and strokes",
-        )
-    return level_layers(grid, mask, ink, tuple(strokes))
+    sight = ArtSight(art, grid, matrix, outlined=outlined)
+    return sight.layers(sight.strokes(drawing), drawing)
 
 
 def _line(points: Floats, matrix: Matrix) -> Floats:

@@ -1,17 +1,16 @@
 """Where a picture's figure is: its mask, and what tells it."""
 
-from pathlib import Path
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from relieffab.errors import InputError
 from relieffab.layers.image.picture import Picture
-from relieffab.layers.image.read import read_picture
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Figure = tuple[Bools, str]
+"""A figure's pixels, and what told them."""
 
 ALPHA, GIVEN, BACKGROUND, SEGMENTED, WHOLE = (
     "alpha", "mask file", "even background", "segmentation", "whole picture",
@@ -39,7 +38,7 @@ def opaque(picture: Picture) -> Bools:
     return seen if picture.alpha is None else seen & (picture.alpha > 0.5)
 
 
-def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tuple[Bools, str]:
+def find_figure(picture: Picture, given: Picture | None = None, *, even: bool) -> Figure:
     """Find the figure's pixels, by what tells it most surely.
 
     In this order: a mask file, transparency and pixels that are no numbers, a
@@ -49,8 +48,8 @@ def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tu
     Parameters
     ----------
     picture : Picture
-    given : str, optional
-        A mask's file: white is the figure.
+    given : Picture, optional
+        A mask: white is the figure.
     even : bool
         Whether an even background is the only one looked for, as for depth and
         normal maps.
@@ -76,12 +75,14 @@ def find_figure(picture: Picture, given: str | None = None, *, even: bool) -> tu
     mask = _without_specks(mask)
     if not mask.any():
         raise InputError(
-            "the figure is empty", found=f"no pixel, by {source}", where=given or picture.name
+            "the figure is empty",
+            found=f"no pixel, by {source}",
+            where=given.name if given else picture.name,
         )
     return mask, source
 
 
-def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
+def _by_colour(picture: Picture, *, even: bool) -> Figure:
     mask = None if picture.format in LOSSY else _background(picture)
     if mask is not None:
         # In a depth map a spot as far as the background is a hole; normals there face the viewer.
@@ -91,14 +92,13 @@ def _by_colour(picture: Picture, *, even: bool) -> tuple[Bools, str]:
     return (opaque(picture), WHOLE) if mask is None else (mask, SEGMENTED)
 
 
-def _given(path: str, shape: tuple[int, int]) -> Bools:
-    mask = read_picture(Path(path))
+def _given(mask: Picture, shape: tuple[int, int]) -> Bools:
     if mask.shape != shape:
         raise InputError(
             "the mask does not fit the picture",
             expected=f"{shape[1]} x {shape[0]} pixels",
             found=f"{mask.shape[1]} x {mask.shape[0]}",
-            where=path,
+            where=mask.name,
         )
     inside: Bools = mask.grey > 0.5 * np.nanmax(mask.grey)
     return inside & opaque(mask)

@@ -1,5 +1,8 @@
 """A drawing's ink, and its strokes."""
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
@@ -112,14 +115,59 @@ def level_layers(grid: Grid, mask: Bools, lines: Floats, strokes: tuple[Stroke, 
     )
 
 
-def ink_layers(
-    picture: Picture, grid: Grid, size: tuple[float, float], margin: float, drawing: Drawing
-) -> tuple[Layers, Fit]:
-    """Take a drawing's lines as they are: its ink, and the strokes that run through it."""
-    ink = ink_of(picture)
-    fit = fit_on(ink > 0.5, grid, size, margin=margin)
-    lines = spread_ink(
-        np.clip(fit.field(ink, np.ones(ink.shape, bool)), 0.0, 1.0), drawing.spread, grid
-    )
-    strokes = strokes_of(lines, grid, drawing.tolerance)
-    return level_layers(grid, lines > 0.02, lines, strokes), fit
+@dataclass(frozen=True, eq=False)
+class InkSight:
+    """What is seen of a drawing on the panel: its ink, before it is spread.
+
+    Parameters
+    ----------
+    fit : Fit
+        Where the picture lies on the panel.
+    ink : (rows, cols) ndarray
+        On the grid, 0 to 1.
+    facts : dict
+        As report.json says them.
+    """
+
+    fit: Fit
+    ink: Floats
+    facts: dict[str, Any]
+
+    lines_only = True
+    notes: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        picture: Picture,
+        grid: Grid,
+        size: tuple[float, float],
+        margin: float,
+        facts: dict[str, Any],
+    ) -> "InkSight":
+        """Look at a drawing."""
+        ink = ink_of(picture)
+        fit = fit_on(ink > 0.5, grid, size, margin=margin)
+        return cls(fit, np.clip(fit.field(ink, np.ones(ink.shape, bool)), 0.0, 1.0), facts)
+
+    @property
+    def grid(self) -> Grid:
+        """The panel's pixels."""
+        return self.fit.grid
+
+    @property
+    def matrix(self) -> list[list[float]]:
+        """From the picture's column and row to the panel, mm."""
+        return self.fit.matrix
+
+    def _spread(self, drawing: Drawing) -> Floats:
+        return spread_ink(self.ink, drawing.spread, self.grid)
+
+    def strokes(self, drawing: Drawing) -> tuple[Stroke, ...]:
+        """Find the strokes that run through the ink."""
+        return strokes_of(self._spread(drawing), self.grid, drawing.tolerance)
+
+    def layers(self, strokes: tuple[Stroke, ...], drawing: Drawing) -> Layers:
+        """Put the images together: the ink as it is."""
+        lines = self._spread(drawing)
+        return level_layers(self.grid, lines > 0.02, lines, strokes)

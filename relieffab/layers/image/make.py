@@ -1,7 +1,6 @@
 """A picture to Layers: what `layers.make` is for a mesh."""
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +9,10 @@ from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.image import normalmap
 from relieffab.layers.image.bands import repair
-from relieffab.layers.image.edges import draw
-from relieffab.layers.image.figure import find_figure
+from relieffab.layers.image.figure import Figure, find_figure
 from relieffab.layers.image.fit import Fit, fit_on
 from relieffab.layers.image.guide import guided
-from relieffab.layers.image.ink import ink_layers
+from relieffab.layers.image.ink import InkSight
 from relieffab.layers.image.integrate import integrate
 from relieffab.layers.image.kind import check_shown, kind_of
 from relieffab.layers.image.names import (
@@ -26,22 +24,18 @@ from relieffab.layers.image.names import (
     PHOTO,
 )
 from relieffab.layers.image.picture import Picture
+from relieffab.layers.image.read import read_picture
 from relieffab.layers.image.rims import rim_length
 from relieffab.layers.image.scale import to_length, white_is_far
 from relieffab.layers.image.shape import brightness, shape_of
+from relieffab.layers.image.sight import Facts, PictureSight
 from relieffab.layers.image.steps import normals_of, slopes_of
 from relieffab.layers.lines.drawing import Drawing
-from relieffab.layers.lines.image import line_image, spread_ink
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import default_lights, lambert
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Facts = dict[str, Any]
-
-
-DOUBTFUL = 0.75
-"""Likeness of a depth map to its normals under which a person is told."""
 
 
 @dataclass(frozen=True)
@@ -78,39 +72,87 @@ class Seen:
         Where the picture lies on the panel.
     facts : dict
         As report.json says them.
+    notes : tuple of str
+        What a person should know of it.
     """
 
     layers: Layers
     fit: Fit
     facts: Facts
+    notes: tuple[str, ...]
 
-    @property
-    def notes(self) -> list[str]:
-        """What a person should know of it."""
-        found = [f"taken for a {self.facts['kind']}: --image says otherwise"]
-        found = found if self.facts["kind_by"] == "values" else []
-        if self.facts.get("mask"):
-            found.append(f"the figure: by {self.facts['mask']}")
-        bands = self.facts.get("banding")
-        if bands:
-            found.append(
-                f"{bands['levels']} levels of {bands['step_mm']:.3f} mm smoothed within half a step"
-            )
-        hidden = self.facts.get("hidden_edges_mm", 0.0)
-        if hidden > 0:
-            found.append(
-                f"{hidden:.0f} mm of edges behind which the figure may hide part of itself: how "
-                "deep the step is there is a guess, for no normal tells; --depth-map would"
-            )
-        beside = self.facts.get("depth_map")
-        if beside and beside["alike"] < DOUBTFUL:
-            found.append(
-                f"the depth map's slopes are like the normals' by {beside['alike']:.2f} of 1 only: "
-                "it is noisy, or its greys are not even with depth"
-            )
-        if self.facts.get("light_fit", 1.0) < 0.3:
-            found.append("its shading does not tell its form well: look at the relief")
-        return found
+
+def figure_of(picture: Picture, kind: str, mask: Picture | None = None) -> Figure:
+    """Find the figure's pixels in a picture of a kind; `mask` shows it white, if given."""
+    return find_figure(picture, mask, even=kind != PHOTO)
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What was found of a picture before.
+
+    Parameters
+    ----------
+    kind : str
+        By its values.
+    figure : Figure or None
+        From `figure_of`, of the kind that it is taken for.
+    """
+
+    kind: str
+    figure: Figure | None = None
+
+
+def sight_of_picture(
+    picture: Picture,
+    grid: Grid,
+    size: tuple[float, float],
+    *,
+    margin: float,
+    showing: Showing | None = None,
+    known: Known | None = None,
+) -> PictureSight | InkSight:
+    """See a picture on the panel; parameters and errors as for `layers_of_picture`.
+
+    With what is known of it nothing of that is looked for, nor is a mask's file read.
+    """
+    showing = showing or Showing()
+    check_shown(picture)
+    kind = showing.kind or (known.kind if known else kind_of(picture))
+    facts: Facts = {"kind": kind, "kind_by": "setting" if showing.kind else "values"}
+    _check_depth_map(showing, kind, picture.name)
+    if kind == DRAWING:
+        return InkSight.of(picture, grid, size, margin, facts)
+    if known and known.figure:
+        mask, source = known.figure
+    else:
+        given = read_picture(showing.mask) if showing.mask else None
+        mask, source = figure_of(picture, kind, given)
+    fit = fit_on(mask, grid, size, margin=margin)
+    there = fit.mask(mask)
+    if not there.any():
+        raise InputError("the figure is too small to be seen on the panel", where=picture.name)
+    facts["mask"] = source
+    grey = None
+    if kind in (DEPTH, DEPTH_FAR):
+        depth, normals = _of_depth(picture, mask, source, showing, fit, there, facts)
+    elif kind == PHOTO:
+        grey = fit.field(brightness(picture), mask)
+        depth, normals = shape_of(grey, there, grid.pitch, facts)
+    else:
+        normals = _normals(picture, mask, kind, fit, there, facts)
+        depth = _of_normals(normals, mask, showing, fit, there, facts)
+    return PictureSight(fit, _assemble(grid, depth, normals, there), facts, grey)
+
+
+def _check_depth_map(showing: Showing, kind: str, name: str) -> None:
+    if showing.depth_map and kind not in (NORMAL, NORMAL_DOWN):
+        raise InputError(
+            "--depth-map goes with a normal map alone",
+            found=f"a picture taken for a {kind}",
+            where=name,
+            hint="--image normal if it is one; a depth map alone is the model itself",
+        )
 
 
 def layers_of_picture(
@@ -144,40 +186,17 @@ def layers_of_picture(
     InputError
         If it shows nothing of the kind.
     """
-    showing, drawing = showing or Showing(), drawing or Drawing()
-    check_shown(picture)
-    kind = showing.kind or kind_of(picture)
-    facts: Facts = {"kind": kind, "kind_by": "setting" if showing.kind else "values"}
-    if showing.depth_map and kind not in (NORMAL, NORMAL_DOWN):
-        raise InputError(
-            "--depth-map goes with a normal map alone",
-            found=f"a picture taken for a {kind}",
-            where=picture.name,
-            hint="--image normal if it is one; a depth map alone is the model itself",
-        )
-    if kind == DRAWING:
-        layers, fit = ink_layers(picture, grid, size, margin, drawing)
-        return Seen(layers, fit, facts)
-    mask, source = find_figure(picture, showing.mask, even=kind != PHOTO)
-    fit = fit_on(mask, grid, size, margin=margin)
-    there = fit.mask(mask)
-    if not there.any():
-        raise InputError("the figure is too small to be seen on the panel", where=picture.name)
-    facts["mask"] = source
-    grey = None
-    if kind in (DEPTH, DEPTH_FAR):
-        depth, normals = _of_depth(picture, mask, source, showing, fit, there, facts)
-    elif kind == PHOTO:
-        grey = fit.field(brightness(picture), mask)
-        depth, normals = shape_of(grey, there, grid.pitch, facts)
-    else:
-        normals = _normals(picture, mask, kind, fit, there, facts)
-        depth = _of_normals(normals, mask, showing, fit, there, facts)
-    bare = _assemble(grid, depth, normals, there)
-    strokes = draw(bare, drawing, grey)
-    ink = line_image([s for s in strokes if not s.light], grid, width=drawing.width)
-    lined = replace(bare, lines=spread_ink(ink, drawing.spread, grid), strokes=strokes)
-    return Seen(lined, fit, facts)
+    drawing = drawing or Drawing()
+    sight = sight_of_picture(picture, grid, size, margin=margin, showing=showing)
+    layers = sight.layers(sight.strokes(drawing), drawing)
+    return Seen(layers, sight.fit, sight.facts, (*told(sight.facts), *sight.notes))
+
+
+def told(facts: Facts) -> tuple[str, ...]:
+    """Note what was found of a picture where nobody said it."""
+    taken = f"taken for a {facts['kind']}: --image says otherwise"
+    found = (taken,) if facts["kind_by"] == "values" else ()
+    return (*found, f"the figure: by {facts['mask']}") if "mask" in facts else found
 
 
 def _assemble(grid: Grid, depth: Floats, normals: Floats, mask: Bools) -> Layers:

@@ -63,6 +63,15 @@ export async function postFrame(path, body) {
 
 /** Send a model as it is; without a file, ask for the studio's own of that name. */
 export async function postModel(name, file = null) {
-  const path = `model?name=${encodeURIComponent(name)}`;
+  return send("model", name, file);
+}
+
+/** Send a picture's mask; the answer names it. */
+export async function postMask(file) {
+  return send("mask", file.name, file);
+}
+
+async function send(what, name, file) {
+  const path = `${what}?name=${encodeURIComponent(name)}`;
   return (await ask(path, { method: "POST", body: file ?? "" })).json();
 }

@@ -1,4 +1,4 @@
-// One setting on the page: a slider that can also be typed, a choice, or a text.
+// One setting on the page: a slider that can also be typed, a choice, a file, or a text.
 
 import { el } from "./dom.js";
 import { quantity, rounded } from "./quantity.js";
@@ -8,11 +8,12 @@ import { quantity, rounded } from "./quantity.js";
  *
  * @param {object} control  as the studio describes it
  * @param {function} change  (text, whether the hand still holds it)
- * @returns {{name, element, set, tell, blame}}
+ * @param {function} send  (file), of a setting that names one
+ * @returns {{name, element, set, tell, blame, rest}}
  */
-export function field(control, change) {
-  const make = { range: slider, choice: choice }[control.kind] ?? words;
-  const made = make(control, change);
+export function field(control, change, send) {
+  const make = { range: slider, choice, file: fileField }[control.kind] ?? words;
+  const made = make(control, change, send);
   const parts = frameOf(control, made, change);
   return {
     name: control.name,
@@ -20,6 +21,15 @@ export function field(control, change) {
     set(text) {
       made.set(text);
       parts.reset.hidden = text === control.default;
+    },
+    /** Let it rest, for a reason that stands in an element of that id; null lets it work. */
+    rest(reason, words) {
+      parts.element.classList.toggle("idle", reason !== null);
+      if (reason) parts.element.title = words;
+      else parts.element.removeAttribute("title");
+      for (const part of parts.element.querySelectorAll("input, select, button"))
+        part.disabled = reason !== null;
+      made.input.setAttribute("aria-describedby", [...parts.about, reason].filter(Boolean).join(" "));
     },
     /** Tell what a setting left empty came to. */
     tell: made.tell ?? (() => {}),
@@ -36,8 +46,10 @@ function frameOf(control, { input, before = null, after = null }, change) {
   const id = `set-${control.name}`;
   input.id = id;
   input.name = control.name;
-  input.setAttribute("aria-describedby", `${id}-help ${id}-fault`);
-  const auto = control.default === "" ? "Worked out by itself" : `Back to ${control.default}`;
+  const about = [`${id}-help`, `${id}-fault`];
+  input.setAttribute("aria-describedby", about.join(" "));
+  const none = control.kind === "file" ? "None" : "Worked out by itself";
+  const auto = control.default === "" ? none : `Back to ${control.default}`;
   const reset = el(
     "button",
     {
@@ -65,7 +77,7 @@ function frameOf(control, { input, before = null, after = null }, change) {
     el("span", { class: "spoken", id: `${id}-help` }, control.help ?? ""),
     fault,
   );
-  return { element, reset, fault };
+  return { element, reset, fault, about };
 }
 
 function slider(control, change) {
@@ -74,8 +86,7 @@ function slider(control, change) {
   const dir = control.reverse ? "rtl" : "ltr";
   const range = el("input", { type: "range", min, max, step, dir, "aria-label": `${control.label}, slider` });
   const place = (text) => {
-    const value = quantity(text, unit);
-    range.value = value ?? min;
+    range.value = quantity(text, unit) ?? Math.max(min, 0);
     range.setAttribute("aria-valuetext", text === "" ? "worked out by itself" : text);
     range.style.setProperty("--share", `${(100 * (range.value - min)) / (max - min)}%`);
   };
@@ -86,7 +97,7 @@ function slider(control, change) {
   const set = (text) => {
     input.value = text;
     place(text || told);
-    range.classList.toggle("auto", text === "");
+    range.classList.toggle("auto", quantity(text, unit) === null);
   };
   const tell = (text) => {
     told = text ?? "";
@@ -104,12 +115,24 @@ function choice(control, change) {
   });
   const input = el("select", {}, ...options);
   input.addEventListener("change", () => change(input.value, false));
+  const empty = options.find((option) => option.value === "");
+  const tell = (text) => empty && (empty.textContent = text ? `auto: ${text}` : "auto");
   const set = (text) => {
     if (![...input.options].some((option) => option.value === text))
       input.append(el("option", { value: text }, text || "auto"));
     input.value = text;
   };
-  return { input, set };
+  return { input, set, tell };
+}
+
+function fileField(_control, _change, send) {
+  const chosen = el("input", { type: "file", hidden: true });
+  const input = el("button", { type: "button", class: "quiet edge", onclick: () => chosen.click() });
+  chosen.addEventListener("change", () => {
+    if (chosen.files.length > 0) send(chosen.files[0]);
+    chosen.value = ""; // the same file can be chosen again
+  });
+  return { input, after: chosen, set: (text) => (input.textContent = text || "Choose a file") };
 }
 
 function words(control, change) {

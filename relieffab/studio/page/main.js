@@ -1,6 +1,6 @@
 // The page begins here: what the studio holds, then whatever the person does.
 
-import { getFrame, getJson, postModel, StudioError } from "./api.js";
+import { getFrame, getJson, postMask, postModel, StudioError } from "./api.js";
 import { Asking } from "./asking.js";
 import { Controls } from "./controls.js";
 import { byId, isTyping } from "./dom.js";
@@ -14,8 +14,10 @@ import { tooLarge, watchForModels } from "./upload.js";
 
 const WARMING = "Getting ready: the first time on a machine this takes some minutes";
 
+const FIRST = { mesh: "Model", svg: "Drawing" }; // what the first tab is called; else a picture
+
 const store = new Store();
-const controls = new Controls(store);
+const controls = new Controls(store, sendMask);
 const show = new Show(store, (seconds) => asking.carved(seconds));
 const asking = new Asking({
   store,
@@ -23,8 +25,9 @@ const asking = new Asking({
   well(what, frame) {
     settle(what);
     controls.blame(null);
-    controls.tell(frame.worked_out);
-    const notes = [...(model?.notes ?? []), ...(frame.notes ?? []), ...(frame.warnings ?? [])];
+    if (frame.worked_out) controls.tell(frame.worked_out);
+    if (frame.idle) controls.rest(frame.idle);
+    const notes = [...new Set([...(model?.notes ?? []), ...(frame.notes ?? []), ...(frame.warnings ?? [])])];
     if (what === "toolpaths") notes.unshift(carvingTime(frame));
     account(frame.seconds, notes);
   },
@@ -42,6 +45,8 @@ let model = null;
 store.listen(() => {
   byId("undo").disabled = !store.canUndo;
   byId("redo").disabled = !store.canRedo;
+  // What was said of other settings, and is not asked again now, is no longer so.
+  for (const what of ["panel", "toolpaths"]) if (!asking.wanted.includes(what)) settle(what);
   asking.refresh();
 });
 
@@ -55,12 +60,30 @@ async function take(state) {
   document.title = model ? `${model.name} – relieffab studio` : "relieffab studio";
   if (!model) return;
   asking.forget();
-  show.load(await getFrame("mesh"), model.up);
-  store.adopt({ up: state.settings.up });
+  show.load(await getFrame("mesh"), model);
+  controls.rest(model.idle);
+  const { up, image, image_depth, mask } = state.settings;
+  store.adopt({ up, image, image_depth, mask });
+  tabs.rename("model", FIRST[model.kind] ?? "Picture");
+  asking.want(show.choose(show.name));
   asking.begin();
-  say(
-    [`${model.name}: ${model.triangles.toLocaleString("en")} triangles`, ...(model.notes ?? [])].join(" · "),
-  );
+  say([`${model.name}: ${model.about}`, ...(model.notes ?? [])].join(" · "));
+}
+
+/** Take a file as the mask of the picture that is open. */
+async function sendMask(setting, file) {
+  settle(setting);
+  say(`Reading ${file.name} …`);
+  try {
+    const refused = tooLarge(file, limit);
+    if (refused) throw new StudioError(refused);
+    store.change(await postMask(file));
+    store.settle();
+    say("");
+  } catch (error) {
+    say("");
+    complain(error, setting);
+  }
 }
 
 /** Open a model: a file, or the studio's own of that name. */

@@ -6,11 +6,12 @@ import { lead } from "./hand.js";
 import { Player, showTray } from "./player.js";
 import { Stage } from "./stage.js";
 import { Sun } from "./sun.js";
-import { DeviationTray, ViewTray } from "./trays.js";
+import { DeviationTray, PictureTray, ViewTray } from "./trays.js";
 import { DeviationView } from "./views/deviation.js";
 import { LayerView, LinesView } from "./views/layers.js";
 import { ModelView } from "./views/model.js";
 import { PanelView } from "./views/panel.js";
+import { PictureView } from "./views/picture.js";
 import { ReliefView } from "./views/relief.js";
 import { ToolpathView } from "./views/toolpaths.js";
 
@@ -37,8 +38,9 @@ export class Show {
       this.stage.view?.relight?.(direction);
       this.stage.draw();
     });
+    this.firsts = { mesh: new ModelView(store), picture: new PictureView() };
     this.views = {
-      model: new ModelView(store),
+      model: this.firsts.mesh,
       lines: new LinesView(),
       lambert: new LayerView("lambert"),
       depth: new LayerView("depth"),
@@ -83,14 +85,18 @@ export class Show {
     return view.wants;
   }
 
-  /** Take another model's mesh. */
-  load(mesh, up) {
-    this.views.model.load(mesh, up);
+  /** Take another model: a mesh, or a picture. */
+  load(frame, model) {
+    const kind = frame.picture ? "picture" : "mesh";
+    this.views.model = this.firsts[kind];
+    this.trays.model = this.before[kind];
+    this.views.model.load(frame, model);
     this.stage.draw();
   }
 
   layers(frame, settings) {
     this.views.model.draw(frame, settings);
+    this.pictured.load(frame.picture);
     for (const name of ["lines", "lambert", "depth"]) this.views[name].show(frame, settings);
     this.stage.draw();
   }
@@ -134,8 +140,9 @@ export class Show {
       },
     );
     this.deviation = new DeviationTray();
-    const views = new ViewTray(this.store);
-    this.trays = { model: views.element, toolpaths: this.player.element, deviation: this.deviation.element };
+    this.pictured = new PictureTray();
+    this.before = { mesh: new ViewTray(this.store).element, picture: this.pictured.element };
+    this.trays = { model: this.before.mesh, toolpaths: this.player.element, deviation: this.deviation.element };
     this.trays.toolpaths.hidden = this.trays.deviation.hidden = true;
   }
 }

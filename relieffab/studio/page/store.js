@@ -65,8 +65,10 @@ export class Store {
     this.#travel(this.#future, this.#past);
   }
 
-  /** Take what came with another model: no step of the person's, so none to undo. */
+  /** Take what came with another model: no step of the person's, so none that undo brings back. */
   adopt(settings) {
+    for (const steps of [this.#past, this.#future])
+      steps.forEach((step, at) => (steps[at] = { ...step, ...settings }));
     this.#apply({ ...this.settings, ...settings });
   }
 

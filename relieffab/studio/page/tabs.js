@@ -43,6 +43,10 @@ export class Tabs {
     this.chosen(name);
   }
 
+  rename(name, label) {
+    byId(`tab-${name}`).textContent = label;
+  }
+
   enable(enabled) {
     for (const button of this.buttons) button.disabled = !enabled;
   }

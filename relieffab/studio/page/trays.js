@@ -1,4 +1,5 @@
-// What stands below the view: named views under the model, a legend under the deviation.
+// What stands below the view: named views under a mesh, what a picture was taken for under
+// a picture, a legend under the deviation.
 
 import { el } from "./dom.js";
 import { anglesOf, VIEWS } from "./placement.js";
@@ -34,6 +35,34 @@ export class ViewTray {
   #look(name) {
     this.store.settle();
     this.store.change({ view: name, azimuth: "", elevation: "", roll: "0deg" });
+  }
+}
+
+const SHOWN = {
+  photo: "a photograph",
+  drawing: "a drawing",
+  depth: "a depth map",
+  "depth-white-far": "a depth map, white far away",
+  normal: "a normal map",
+  "normal-y-down": "a normal map, green downwards",
+};
+
+const BY = { background: ", by its background", data: ", by how it curls", custom: ", as is usual" };
+
+/** What a picture was taken for, and by what. */
+export class PictureTray {
+  constructor() {
+    this.element = el("p", { class: "facts" });
+  }
+
+  load({ kind, kind_by: by, mask, near, near_by: nearBy, green, green_by: greenBy }) {
+    const facts = [
+      SHOWN[kind] && `Taken for ${SHOWN[kind]}${by === "values" ? ", by its values" : ""}`,
+      mask && `its figure found by ${mask}`,
+      near && `${near} is near${BY[nearBy] ?? ""}`,
+      green && `green points ${green === "y-down" ? "down" : "up"}${BY[greenBy] ?? ""}`,
+    ];
+    this.element.textContent = facts.filter(Boolean).join("; ");
   }
 }
 

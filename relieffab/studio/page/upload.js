@@ -42,6 +42,6 @@ export function tooLarge(file, limit) {
     expected: `at most ${megabytes(limit)}`,
     found: megabytes(file.size),
     where: file.name,
-    hint: "save it with fewer triangles",
+    hint: "a smaller one: fewer triangles, or fewer pixels",
   };
 }

@@ -6,6 +6,7 @@ from PIL import Image
 
 from relieffab.errors import InputError
 from relieffab.layers.image.figure import ALPHA, BACKGROUND, GIVEN, SEGMENTED, WHOLE, find_figure
+from relieffab.layers.image.read import read_picture
 
 
 def test_transparency_and_nan_are_background(stone, make_picture):
@@ -58,12 +59,12 @@ def test_a_given_mask_counts_and_must_fit(stone, make_picture, tmp_path):
     path = tmp_path / "mask.png"
     half = stone.mask & (np.arange(stone.grid.cols) < 160)
     Image.fromarray(half.astype(np.uint8) * 255).save(path)
-    mask, source = find_figure(make_picture(stone.depth), str(path), even=True)
+    mask, source = find_figure(make_picture(stone.depth), read_picture(path), even=True)
     assert source == GIVEN
     np.testing.assert_array_equal(mask, half)
     Image.fromarray(half[:100].astype(np.uint8) * 255).save(path)
     with pytest.raises(InputError, match="does not fit"):
-        find_figure(make_picture(stone.depth), str(path), even=True)
+        find_figure(make_picture(stone.depth), read_picture(path), even=True)
     with pytest.raises(InputError, match="is empty"):
         find_figure(make_picture(stone.depth, alpha=np.zeros(stone.grid.shape)), even=True)
 

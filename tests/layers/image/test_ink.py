@@ -3,7 +3,7 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.layers.image.ink import ink_layers, ink_of, strokes_of
+from relieffab.layers.image.ink import InkSight, ink_of, strokes_of
 from relieffab.layers.lines.drawing import Drawing
 
 GRID = Grid.on_panel((40.0, 30.0), (320, 240))
@@ -43,7 +43,8 @@ def test_strokes_run_through_the_middle_and_know_their_width():
 
 def test_layers_of_a_drawing_are_level_and_keep_its_ink(make_picture):
     picture = make_picture(np.where(drawing(), 0.0, 1.0))
-    layers, fit = ink_layers(picture, GRID, (40.0, 30.0), 3.0, Drawing())
+    sight = InkSight.of(picture, GRID, (40.0, 30.0), 3.0, {})
+    layers, fit = sight.layers(sight.strokes(Drawing()), Drawing()), sight.fit
     assert layers.level
     wide = 166 * fit.scale
     cols = np.flatnonzero((layers.lines > 0.5).any(axis=0))

@@ -31,7 +31,8 @@ ARGUMENTS = [
     "--enable-precise-memory-info",
 ]
 WINDOW = {"width": 900, "height": 620}
-BEGUN = {"size": "40x30mm", "resolution": "160x120", "line_length": "2mm", "material": "foam"}
+BEGUN = {"size": "40x30mm", "resolution": "96x72", "line_length": "2mm", "material": "foam"}
+BEGUN |= {"scallop": "0.05mm"}
 BEGUN |= {"up": "y"}  # of a file of triangles alone it would have to be guessed
 PATIENCE = 400.0  # seconds: a studio that has never run compiles first
 
@@ -80,9 +81,17 @@ class Person:
 
     def opens(self, file):
         """Choose a model's file, and wait until it is shown."""
+        if self.sees("document.getElementById('welcome').hidden"):
+            self.calm()  # what was open before is no longer on its way
         before = self.sees("studio.store.version + studio.asking.count")
         self.page.set_input_files("#file", file)
         self.waits(f"studio.store.version + studio.asking.count > {before}")
+        self.calm()
+
+    def begins_anew(self):
+        """Have all settings as they are by default."""
+        defaults = {name: setting.default for name, setting in TABLE.items() if name in OFFERED}
+        self.sees(f"studio.store.change({json.dumps({**defaults, **BEGUN})})")
         self.calm()
 
     def goes_to(self, tab):
@@ -188,7 +197,14 @@ def carver(person, model):
     """Somebody with the scarab before them, settings as they are by default."""
     if person.page.inner_text("#model-name") != model.name:
         person.opens(model)
-    defaults = {name: setting.default for name, setting in TABLE.items() if name in OFFERED}
-    person.sees(f"studio.store.change({json.dumps({**defaults, **BEGUN})})")
-    person.calm()
+    person.begins_anew()
+    return person
+
+
+@pytest.fixture
+def viewer(person, bump):
+    """Somebody with a depth map before them, settings as they are by default."""
+    if person.page.inner_text("#model-name") != bump.name:
+        person.opens(bump)
+    person.begins_anew()
     return person

@@ -102,11 +102,15 @@ def test_undo_and_redo_go_the_same_way(person):
             store[way]();
             seen.push(store.settings);
           }
+          // What came with another model stays, however far one goes back.
+          store.adopt({ roll: '9deg' });
+          for (let step = 0; step < 3; step++) store.undo();
+          seen.push(store.settings);
           return seen.map(({ depth, roll }) => `${depth} ${roll}`);
         }"""
     )
     there = ["6mm 5deg", "6mm 0deg", "3mm 0deg", "3mm 0deg"]
-    assert states == [*there, "6mm 0deg", "6mm 5deg", "6mm 5deg"]
+    assert states == [*there, "6mm 0deg", "6mm 5deg", "6mm 5deg", "3mm 9deg"]
 
 
 def test_quantities_are_read_as_the_studio_reads_them(person):

@@ -16,7 +16,8 @@ export class DeviationView extends FlatView {
         off: plain("#cfccc4"),
       },
       fragment: `uniform float limit; uniform vec3 low, even, high, off;
-        vec3 colour(float value) {
+        vec3 colour(vec4 texel) {
+          float value = texel.r;
           if (!(abs(value) < 1e20)) return off;
           float share = clamp(value / limit, -1.0, 1.0);
           return mix(even, share < 0.0 ? low : high, abs(share));

@@ -8,6 +8,7 @@ import {
   NearestFilter,
   PlaneGeometry,
   RedFormat,
+  RGBAFormat,
   FloatType,
   Scene,
   ShaderMaterial,
@@ -22,7 +23,7 @@ const VERTEX = `varying vec2 vUv;
 export class FlatView {
   help = "Arrow keys move the picture, plus and minus zoom, 0 shows all of it.";
 
-  /** @param {object} colouring  fragment: GLSL of `vec3 colour(float value)`, uniforms, exact? */
+  /** @param {object} colouring  fragment: GLSL of `vec3 colour(vec4 texel)`, uniforms, exact? */
   constructor({ wants, fragment, uniforms = {}, exact = false }) {
     this.wants = wants;
     this.colouring = { fragment, uniforms };
@@ -36,14 +37,15 @@ export class FlatView {
   /**
    * Show an array.
    *
-   * @param {{data, shape}} array  uint8 or float32, row 0 the far edge
+   * @param {{data, shape}} array  uint8 or float32, row 0 the far edge; of four values if (.., .., 4)
    * @param {number[]} box  x0, y0, x1, y1 of its border on the panel, mm
    */
   take(array, box, size) {
     if (this.sheet) dispose(this.sheet);
     const [rows, cols] = array.shape;
     const real = array.data instanceof Float32Array;
-    const texture = new DataTexture(array.data, cols, rows, RedFormat, real ? FloatType : UnsignedByteType);
+    const format = array.shape[2] === 4 ? RGBAFormat : RedFormat;
+    const texture = new DataTexture(array.data, cols, rows, format, real ? FloatType : UnsignedByteType);
     texture.unpackAlignment = 1;
     texture.flipY = false;
     texture.magFilter = texture.minFilter = real || this.exact ? NearestFilter : LinearFilter;
@@ -58,12 +60,18 @@ export class FlatView {
     this.box = box;
   }
 
+  /** Show nothing. */
+  clear() {
+    if (this.sheet) dispose(this.sheet);
+    this.sheet = this.array = null;
+  }
+
   #paint(texture) {
     return new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: `uniform sampler2D picture; varying vec2 vUv;
         ${this.colouring.fragment}
-        void main() { gl_FragColor = vec4(colour(texture2D(picture, vec2(vUv.x, 1.0 - vUv.y)).r), 1.0); }`,
+        void main() { gl_FragColor = vec4(colour(texture2D(picture, vec2(vUv.x, 1.0 - vUv.y))), 1.0); }`,
       uniforms: { picture: { value: texture }, ...this.colouring.uniforms },
     });
   }

@@ -1,16 +1,8 @@
 // The model as it will be carved: turned by hand, its drawn lines with it.
 
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Color,
-  LineBasicMaterial,
-  LineLoop,
-  Matrix4,
-  Mesh,
-  Scene,
-} from "../three.js";
+import { BufferAttribute, BufferGeometry, Color, Matrix4, Mesh, Scene } from "../three.js";
 import { colourOf } from "../dom.js";
+import { Edge } from "../edge.js";
 import { anglesOf, placement, roomOf } from "../placement.js";
 import { quantity } from "../quantity.js";
 import { FlatRig } from "../rigs.js";
@@ -30,14 +22,13 @@ export class ModelView {
     this.store = store;
     this.rig = new FlatRig();
     this.scene = new Scene();
-    this.edge = new LineLoop(new BufferGeometry(), new LineBasicMaterial());
-    this.edge.frustumCulled = false;
-    this.scene.add(this.edge);
+    this.edge = new Edge();
+    this.scene.add(this.edge.object);
     this.model = this.strokes = this.asked = null;
   }
 
   /** Take another model: a mesh in its own units. */
-  load({ arrays }, up) {
+  load({ arrays }, { up }) {
     if (this.model) dispose(this.model);
     this.forgetStrokes();
     const geometry = new BufferGeometry();
@@ -70,7 +61,7 @@ export class ModelView {
     this.model.matrix.copy(matrix);
     this.model.matrixWorldNeedsUpdate = true;
     this.rig.size = room.size;
-    this.#frame(room.size);
+    this.edge.fit(room.size);
     if (this.strokes) this.#carry(matrix);
   }
 
@@ -88,7 +79,7 @@ export class ModelView {
   }
 
   dress() {
-    this.edge.material.color.set(colourOf("--line"));
+    this.edge.dress();
     this.strokes?.material.uniforms.colour.value.set(new Color(colourOf("--drawn")));
   }
 
@@ -128,11 +119,6 @@ export class ModelView {
   #look(angles) {
     const texts = Object.entries(angles).map(([name, angle]) => [name, `${Number(angle.toFixed(1))}deg`]);
     this.store.change(Object.fromEntries(texts), "turn");
-  }
-
-  #frame([w, h]) {
-    const corners = new Float32Array([0, 0, 0, w, 0, 0, w, h, 0, 0, h, 0]);
-    this.edge.geometry.setAttribute("position", new BufferAttribute(corners, 3));
   }
 
   /** Move the strokes from the view they were drawn of to the one shown. */

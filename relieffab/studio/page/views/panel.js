@@ -13,13 +13,13 @@ export class PanelView extends SolidView {
     this.solid = null;
   }
 
-  show({ arrays }, settings) {
+  show({ arrays, extent_mm: extent }, settings) {
     if (this.solid) dispose(this.solid);
     this.solid = new Mesh(creased(arrays.positions.data, arrays.indices.data), stone());
     this.solid.frustumCulled = false;
     dressed(this.solid.material, settings.material);
     this.scene.add(this.solid);
-    this.bound(settings);
+    this.rig.size = extent;
     this.relight(this.sun.direction);
   }
 

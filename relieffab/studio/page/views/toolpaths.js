@@ -24,6 +24,7 @@ export const PASSES = {
   waterline: "#14808f",
   pencil: "#8a4fb5",
   lines: "#c6401a",
+  marks: "#8c2f63",
 };
 const MOST = 16; // kinds of move
 const LIFT = 0.04; // mm: paths lie on the surface they cut
