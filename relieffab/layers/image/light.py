@@ -61,9 +61,9 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
 
     Its direction across the picture is told by the figure's rim, which bends away
     outward whatever the figure is (Nillius and Eklundh 2001); its elevation by the
-    least squares fit of grey = ambient + strength max(0, n.l) to a body that is
-    about the one shown, or, where that explains little because the figure is rather
-    flat, by the median brightness: that of what faces the viewer.  Under a light from
+    median brightness, about that of what faces the viewer, and as much by the least
+    squares fit of grey = ambient + strength max(0, n.l) to a body that is about the one
+    shown, unless that explains little because the figure is rather flat.  Under a light from
     the front the rim is as bright all round.  What shadows tell of the even light
     goes before what the body does.
 
@@ -85,11 +85,13 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     way, ambient, fit = _of_body(grey[mask], normals[mask])
     tilt = _of_rim(grey, mask)
     size = float(np.hypot(*tilt))
+    level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
     if fit < ROUND:
-        level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
-        way, ambient = np.array([0.0, np.sqrt(1.0 - level**2), level]), 0.0
+        ambient = 0.0
+    else:
+        level = 0.5 * (level + float(way[2]))
     if size > EVEN * brightest:
-        way = np.append(tilt / size * np.hypot(way[0], way[1]), way[2])
+        way = np.append(tilt / size * np.sqrt(1.0 - level**2), level)
     else:
         way = FRONT
     dark, shadow = np.percentile(grey[mask], [25.0 * SHADOW, 100.0 * SHADOW])

@@ -25,8 +25,6 @@ Bools = NDArray[np.bool_]
 
 SPREAD = 0.1
 """Difference in brightness from which the loss grows slowly, of the brightest (s)."""
-BEND = 0.003
-"""Weight of differences between neighbouring normals (b)."""
 DIM = 0.1
 """Brightness, of the brightest, from which a pixel that faces away is certainly wrong."""
 
@@ -45,12 +43,15 @@ class Photograph:
         Unit vector towards the light.
     facing : float
         Weight of 1 - n_z (f).
+    bend : float
+        Weight of differences between neighbouring normals (b).
     """
 
     shade: Floats
     mask: Bools
     way: Floats
-    facing: float = 0.0
+    facing: float
+    bend: float
 
 
 def energy_of(z: Floats, photograph: Photograph) -> tuple[float, Floats]:
@@ -73,7 +74,7 @@ def energy_of(z: Floats, photograph: Photograph) -> tuple[float, Floats]:
     _tilt(z, mask, normals)
     total = _compare(
         normals, photograph.shade, mask, photograph.way, photograph.facing, pull
-    ) + _bend(normals, mask, pull)
+    ) + _bend(normals, mask, photograph.bend, pull)
     slope = np.zeros(z.shape)
     _gather(normals, mask, pull, slope)
     return total, slope
@@ -118,7 +119,7 @@ def _compare(
 
 
 @kernel
-def _bend(normals: Floats, mask: Bools, pull: Floats) -> float:
+def _bend(normals: Floats, mask: Bools, weight: float, pull: Floats) -> float:
     """Sum how much neighbours differ; adds the slopes by each normal to `pull`."""
     total = 0.0
     rows, cols = mask.shape
@@ -130,9 +131,9 @@ def _bend(normals: Floats, mask: Bools, pull: Floats) -> float:
                 if a < rows and b < cols and mask[a, b]:
                     for k in range(3):
                         turn = normals[a, b, k] - normals[i, j, k]
-                        total += BEND * turn * turn
-                        pull[a, b, k] += 2.0 * BEND * turn
-                        pull[i, j, k] -= 2.0 * BEND * turn
+                        total += weight * turn * turn
+                        pull[a, b, k] += 2.0 * weight * turn
+                        pull[i, j, k] -= 2.0 * weight * turn
     return total
 
 

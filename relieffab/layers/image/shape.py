@@ -28,14 +28,19 @@ COARSEST = 96
 """Pixels each way at most on the coarsest level."""
 LIT = 256
 """The same, where the light is sought."""
-ROUNDS = (100, 80, 60, 40, 15)
-"""Steps on each level from the coarsest, the last for all finer ones too."""
+ROUNDS = (60, 40, 20, 10, 8)
+"""Steps on each level from the coarsest, the last for all finer ones too: more follow the picture
+into what it does not tell."""
 THICK = 0.6
 """Of a round body's thickness: few figures are as thick as they are wide."""
 FLAT = 0.1
 """The same, where the shading says that the figure is no such body."""
 FACING = 0.002
-"""Weight of facing the viewer there."""
+"""Weight of facing the viewer."""
+BEND, BEND_FRONTAL = 0.003, 0.1
+"""Weight of bending, under light from the side, and from the front on the coarsest level."""
+EASED = 0.4
+"""What is left of the latter on the next level."""
 HOLD = 1e-6
 """How firmly the body holds the surface, of what a pixel weighs."""
 FRONTAL = 0.8
@@ -99,17 +104,18 @@ def _deep(shade: Floats, mask: Bools, sigma: float) -> Floats:
 
 def _descend(levels: list[Level], light: Light) -> Floats:
     """Settle on level after level; the depth at the finest one's corners, pixels."""
-    thick, facing = (THICK, 0.0) if light.fit >= ROUND else (FLAT, FACING)
-    deep = DEEP * max(0.0, (light.way[2] - FRONTAL) / (1.0 - FRONTAL))
+    thick = THICK if light.fit >= ROUND else FLAT
+    frontal = max(0.0, (light.way[2] - FRONTAL) / (1.0 - FRONTAL))
     z = np.zeros((1, 1))
     for k, (grey, mask) in enumerate(levels):
         body = thick * _corners(inflate(mask, 1.0))
         shade = light.cosine(grey)
         z = _finer(z, mask.shape) if k else body
-        if deep > 0.0:
-            z = z + deep * _deep(shade, mask, AROUND if k else float(max(mask.shape)))
+        if frontal > 0.0:
+            z = z + frontal * DEEP * _deep(shade, mask, AROUND if k else float(max(mask.shape)))
         hold = HOLD * 4.0 ** (len(levels) - 1 - k)
-        seen = Photograph(shade, mask, light.way, facing)
+        bend = BEND + frontal * BEND_FRONTAL * EASED**k
+        seen = Photograph(shade, mask, light.way, FACING, bend)
         z = settle(z, seen, ROUNDS[min(k, len(ROUNDS) - 1)], reference=body, hold=hold)
     return z
 
