@@ -61,9 +61,9 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
 
     Its direction across the picture is told by the figure's rim, which bends away
     outward whatever the figure is (Nillius and Eklundh 2001); its elevation by the
-    median brightness, about that of what faces the viewer, and as much by the least
-    squares fit of grey = ambient + strength max(0, n.l) to a body that is about the one
-    shown, unless that explains little because the figure is rather flat.  Under a light from
+    least squares fit of grey = ambient + strength max(0, n.l) to a body that is about
+    the one shown, and, as far as that leaves the brightness unexplained, by its median,
+    about that of what faces the viewer.  Under a light from
     the front the rim is as bright all round.  What shadows tell of the even light
     goes before what the body does.
 
@@ -86,10 +86,9 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     tilt = _of_rim(grey, mask)
     size = float(np.hypot(*tilt))
     level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
+    level += fit * (float(way[2]) - level)
     if fit < ROUND:
         ambient = 0.0
-    else:
-        level = 0.5 * (level + float(way[2]))
     if size > EVEN * brightest:
         way = np.append(tilt / size * np.sqrt(1.0 - level**2), level)
     else:

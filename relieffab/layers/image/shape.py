@@ -33,9 +33,9 @@ ROUNDS = (60, 40, 20, 10, 8)
 into what it does not tell."""
 THICK = 0.6
 """Of a round body's thickness: few figures are as thick as they are wide."""
-FLAT = 0.1
+FLAT = 0.3
 """The same, where the shading says that the figure is no such body."""
-FACING = 0.002
+FACING = 0.001
 """Weight of facing the viewer."""
 BEND, BEND_FRONTAL = 0.003, 0.1
 """Weight of bending, under light from the side, and from the front on the coarsest level."""
