@@ -63,7 +63,8 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     outward whatever the figure is (Nillius and Eklundh 2001); its elevation by the
     least squares fit of grey = ambient + strength max(0, n.l) to a body that is about
     the one shown, and, as far as that leaves the brightness unexplained, by its median,
-    about that of what faces the viewer.  Under a light from
+    about that of what faces the viewer, or by that alone where the figure is rather
+    flat.  Under a light from
     the front the rim is as bright all round.  What shadows tell of the even light
     goes before what the body does.
 
@@ -86,9 +87,10 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     tilt = _of_rim(grey, mask)
     size = float(np.hypot(*tilt))
     level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
-    level += fit * (float(way[2]) - level)
     if fit < ROUND:
         ambient = 0.0
+    else:
+        level += fit * (float(way[2]) - level)
     if size > EVEN * brightest:
         way = np.append(tilt / size * np.sqrt(1.0 - level**2), level)
     else:
