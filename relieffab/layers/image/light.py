@@ -14,7 +14,7 @@ DULL = 0.02
 """Brightness, of the brightest, up to which a pixel is in shadow and tells nothing."""
 EVEN = 0.15
 """How much the rim's brightness goes with where it faces, of the brightest, under a light from
-the front at most."""
+the front at most, if nothing lies in shadow."""
 SHADOW = 0.02
 """Of the figure: as many pixels that are equally dark are in shadow."""
 ALIKE = 0.03
@@ -64,9 +64,8 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     least squares fit of grey = ambient + strength max(0, n.l) to a body that is about
     the one shown, and, as far as that leaves the brightness unexplained, by its median,
     about that of what faces the viewer, or by that alone where the figure is rather
-    flat.  Under a light from
-    the front the rim is as bright all round.  What shadows tell of the even light
-    goes before what the body does.
+    flat. Under a light from the front the rim is as bright all round, and nothing lies
+    in shadow. What shadows tell of the even light goes before what the body does.
 
     Parameters
     ----------
@@ -91,13 +90,14 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
         ambient = 0.0
     else:
         level += fit * (float(way[2]) - level)
-    if size > EVEN * brightest:
+    dark, shadow = np.percentile(grey[mask], [25.0 * SHADOW, 100.0 * SHADOW])
+    shadowed = bool(shadow - dark < ALIKE * brightest and shadow < 0.5 * brightest)
+    if shadowed:
+        ambient = float(shadow)
+    if size > (DULL if shadowed else EVEN) * brightest:
         way = np.append(tilt / size * np.sqrt(1.0 - level**2), level)
     else:
         way = FRONT
-    dark, shadow = np.percentile(grey[mask], [25.0 * SHADOW, 100.0 * SHADOW])
-    if shadow - dark < ALIKE * brightest:
-        ambient = float(min(shadow, 0.5 * brightest))
     # The scale is the picture's own: what faces the light is nearly its brightest.
     return Light(way, max(brightest - ambient, 1e-6), ambient, fit)
 
