@@ -8,9 +8,9 @@ n = (-p, -q, 1) / sqrt(1 + p² + q²), and what is summed over the figure's pixe
 
 the photograph's brightness I against Lambert's law by a loss that grows slowly where the
 two cannot agree (Lorentz's; Black and Anandan 1996), a leaning towards the viewer, and
-how much the normal n' of each neighbour differs, the area term and the bending of Barron
-and Malik, "Shape, illumination, and reflectance from shading" (2015), Sect. 5, on normals:
-a cliff costs no more there than two quarter turns.
+how much the normal n' of each neighbour differs.  The last two are after the priors of
+shape of Barron and Malik, "Shape, illumination, and reflectance from shading" (2015),
+isotropy and smoothness; on normals, a cliff costs no more than two quarter turns.
 """
 
 from dataclasses import dataclass
