@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 TOLERANCE = 1e-4
+"""On the residual, relative to what the slopes ask for."""
 MOST = 300
 """Iterations."""
 
@@ -29,15 +30,13 @@ def _divergence(fx: Floats, fy: Floats, shape: tuple[int, int]) -> Floats:
     return out
 
 
-def _solve(
-    wx: Floats, wy: Floats, rhs: Floats, screen: float, start: Floats, tolerance: float
-) -> Floats:
-    """Solve -div(w grad z) + screen z = rhs."""
+def _solve(wx: Floats, wy: Floats, rhs: Floats) -> Floats:
+    """Solve -div(w grad z) = rhs."""
     rows, cols = rhs.shape
     eigen = (
         (2 - 2 * np.cos(np.pi * np.arange(rows) / rows))[:, None]
         + (2 - 2 * np.cos(np.pi * np.arange(cols) / cols))
-        + max(screen, 1e-9)
+        + 1e-9
     )
     active = np.zeros((rows, cols), bool)
     active[:, :-1] |= wx > 0
@@ -46,15 +45,13 @@ def _solve(
     active[1:] |= wy > 0
 
     def apply(z: Floats) -> Floats:
-        flow = -_divergence(wx * np.diff(z, axis=1), wy * np.diff(z, axis=0), z.shape)
-        return flow + screen * z * active
+        return -_divergence(wx * np.diff(z, axis=1), wy * np.diff(z, axis=0), z.shape)
 
     def eased(r: Floats) -> Floats:
         return np.asarray(idctn(dctn(r, norm="ortho") / eigen, norm="ortho")) * active
 
-    z = start * active
-    r = np.where(active, rhs, 0.0) - apply(z)
-    goal = tolerance * float(np.linalg.norm(np.where(active, rhs, 0.0))) + 1e-300
+    z, r = np.zeros(rhs.shape), np.where(active, rhs, 0.0)
+    goal = TOLERANCE * float(np.linalg.norm(r)) + 1e-300
     y = eased(r)
     direction, rho = y, float((r * y).sum())
     for _ in range(MOST):
@@ -70,15 +67,7 @@ def _solve(
     return z
 
 
-def integrate(
-    slopes: Floats,
-    mask: Bools,
-    pitch: float,
-    *,
-    reference: Floats | None = None,
-    length: float = np.inf,
-    tolerance: float = TOLERANCE,
-) -> Floats:
+def integrate(slopes: Floats, mask: Bools, pitch: float) -> Floats:
     """Find the depth whose slopes come nearest to those given.
 
     Where one part of the figure stands in front of another no slope tells how far:
@@ -92,27 +81,16 @@ def integrate(
         The figure; a natural boundary along its edge.
     pitch : float
         mm.
-    reference : (rows, cols) ndarray, optional
-        Forms wider than `length` follow it, mm: sum ((D - reference) / length)² is
-        added.
-    length : float
-        mm.
-    tolerance : float
-        On the residual, relative to what the slopes ask for.
 
     Returns
     -------
     (rows, cols) ndarray
-        mm, the nearest point of every part of the figure at 0 where there is no
-        reference; 0 outside.
+        mm, the nearest point of every part of the figure at 0; 0 outside.
     """
     gx, gy = steps_between(slopes, mask, pitch)
     wx, wy = (mask[:, 1:] & mask[:, :-1]).astype(float), (mask[1:] & mask[:-1]).astype(float)
-    screen = (pitch / length) ** 2
-    lean = np.zeros(mask.shape) if reference is None else np.where(mask, reference, 0.0)
-    rhs = -_divergence(wx * gx, wy * gy, mask.shape) + screen * lean
-    z = _solve(wx, wy, rhs, screen, lean, tolerance)
-    return _levelled(z, mask) if reference is None else np.where(mask, z, 0.0)
+    rhs = -_divergence(wx * gx, wy * gy, mask.shape)
+    return _levelled(_solve(wx, wy, rhs), mask)
 
 
 def steps_between(slopes: Floats, mask: Bools, pitch: float) -> tuple[Floats, Floats]:

@@ -12,6 +12,13 @@ Bools = NDArray[np.bool_]
 ROUNDS = 8
 DULL = 0.02
 """Brightness, of the brightest, up to which a pixel is in shadow and tells nothing."""
+EVEN = 0.15
+"""How much the rim's brightness goes with where it faces, of the brightest, under a light from
+the front at most, if nothing lies in shadow."""
+SHADOW = 0.02
+"""Of the figure: as many pixels that are equally dark are in shadow."""
+ALIKE = 0.03
+"""Spread of their brightness, of the brightest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +61,11 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
 
     Its direction across the picture is told by the figure's rim, which bends away
     outward whatever the figure is (Nillius and Eklundh 2001); its elevation by the
-    least squares fit of grey = ambient + strength max(0, n.l) to a body that is
-    about the one shown, or, where that explains little because the figure is rather
-    flat, by the median brightness: that of what faces the viewer.
+    least squares fit of grey = ambient + strength max(0, n.l) to a body that is about
+    the one shown, and, as far as that leaves the brightness unexplained, by its median,
+    about that of what faces the viewer, or by that alone where the figure is rather
+    flat. Under a light from the front the rim is as bright all round, and nothing lies
+    in shadow. What shadows tell of the even light goes before what the body does.
 
     Parameters
     ----------
@@ -70,18 +79,25 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
     Returns
     -------
     Light
-        From the front where the brightness follows no light.
+        From the front where the rim's brightness follows no other.
     """
     brightest = max(float(np.percentile(grey[mask], 99.5)), 1e-6)
     way, ambient, fit = _of_body(grey[mask], normals[mask])
     tilt = _of_rim(grey, mask)
     size = float(np.hypot(*tilt))
+    level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
     if fit < ROUND:
-        level = float(np.clip(np.median(grey[mask]) / brightest, LOWEST, 1.0))
-        way = np.array([0.0, np.sqrt(1.0 - level**2), level]) if size > DULL * brightest else FRONT
         ambient = 0.0
-    if size > DULL * brightest:
-        way = np.append(tilt / size * np.hypot(way[0], way[1]), way[2])
+    else:
+        level += fit * (float(way[2]) - level)
+    dark, shadow = np.percentile(grey[mask], [25.0 * SHADOW, 100.0 * SHADOW])
+    shadowed = bool(shadow - dark < ALIKE * brightest and shadow < 0.5 * brightest)
+    if shadowed:
+        ambient = float(shadow)
+    if size > (DULL if shadowed else EVEN) * brightest:
+        way = np.append(tilt / size * np.sqrt(1.0 - level**2), level)
+    else:
+        way = FRONT
     # The scale is the picture's own: what faces the light is nearly its brightest.
     return Light(way, max(brightest - ambient, 1e-6), ambient, fit)
 

@@ -40,3 +40,9 @@ def test_a_flat_figure_is_asked_at_its_rim():
 def test_even_brightness_is_light_from_the_front():
     light = find_light(0.6 * MASK, BALL, MASK)
     np.testing.assert_allclose(light.way, [0, 0, 1])
+
+
+def test_shadows_tell_the_even_light():
+    unit = np.array([-1.0, 1.0, 0.6]) / np.sqrt(2.36)
+    grey = (0.2 + 0.7 * lambert(BALL, unit[None])[0]) * MASK
+    assert abs(find_light(grey, BALL, MASK).ambient - 0.2) < 1e-6

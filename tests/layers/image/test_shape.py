@@ -4,31 +4,12 @@ import numpy as np
 import pytest
 
 from relieffab.layers.image.picture import Picture
-from relieffab.layers.image.shape import brightness, on_cone, shape_of
+from relieffab.layers.image.shape import brightness, shape_of
 from relieffab.layers.shading import lambert
 from relieffab.relief.make import make_relief
 from relieffab.relief.quality.order import order
 from relieffab.relief.quality.pair import Pair
 from relieffab.relief.targets import Carving
-
-
-def test_normals_go_the_shortest_way_onto_their_cone():
-    rng = np.random.default_rng(0)
-    normals = rng.normal(size=(20, 20, 3))
-    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
-    way = np.array([0.6, 0.0, 0.8])
-    cosine = rng.uniform(0.1, 1.0, (20, 20))
-    turned = on_cone(normals, cosine, way)
-    np.testing.assert_allclose(np.linalg.norm(turned, axis=2), 1.0)
-    np.testing.assert_allclose(turned @ way, cosine)
-    # In one plane with the light: the shortest way there is.
-    volume = np.einsum(
-        "ijn,ijn->ij", np.cross(normals, turned), np.broadcast_to(way, normals.shape)
-    )
-    np.testing.assert_allclose(volume, 0.0, atol=1e-12)
-    shadowed = on_cone(normals, np.zeros((20, 20)), way)
-    away = normals @ way <= 0
-    np.testing.assert_array_equal(shadowed[away], normals[away])
 
 
 def test_brightness_is_linear():
@@ -48,3 +29,28 @@ def test_the_depth_order_comes_out_of_one_photograph(layers, way):
     seen = replace(layers, depth=depth, normals=normals)
     relief, _ = make_relief(seen, Carving(depth=2.0))
     assert order(Pair(relief, layers)).local >= 0.8
+
+
+@pytest.mark.parametrize("way", [(-1.0, 1.0, 1.0), (0.0, 0.0, 1.0)])
+@pytest.mark.parametrize("grain", [0.0, 0.06])
+def test_a_ball_comes_out_round(way, grain):
+    row, col = np.indices((150, 150)) - 74.5
+    mask = row**2 + col**2 < 60**2
+    z = np.sqrt(np.maximum(60.0**2 - row**2 - col**2, 0.0))
+    normals = np.stack([col, -row, z], axis=2) / np.sqrt(row**2 + col**2 + z**2)[..., None]
+    noise = np.random.default_rng(0).normal(1.0, grain, mask.shape)
+    unit = np.array(way) / np.linalg.norm(way)
+    grey = (0.05 + 0.9 * lambert(normals, unit[None])[0]) * mask * noise
+    _, found = shape_of(grey, mask, 0.5, {})
+    inner = row**2 + col**2 < 54**2
+    off = np.degrees(np.arccos(np.clip((found * normals).sum(axis=2), -1.0, 1.0)))[inner]
+    assert np.median(off) < 12.0
+    assert np.percentile(off, 90) < 25.0
+
+
+def test_what_shows_no_shading_stays_within_its_outline():
+    mask = np.ones((9, 13), bool)
+    depth, normals = shape_of(0.4 * mask, mask, 0.5, {})
+    assert np.isfinite(depth).all()
+    assert np.ptp(depth) < 0.5 * 9
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1.0)
