@@ -30,6 +30,7 @@ Singles = NDArray[np.float32]
 REFINE, LARGE = 4, 4_000_000
 """Lattice nodes a pixel, half of that for reliefs of more pixels than `LARGE`."""
 
+CHORDS = 0.01  # mm that the chords of a curved face may lie under it
 AIR = 1e-3  # mm of material, below which a move cuts nothing
 LEAST_WITHIN = 0.9  # share of the figure that has to be within the tolerance
 
@@ -147,7 +148,7 @@ def verify(
     carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
     coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)
     deviation = carved.heights - _wanted(carved.grid, relief, setup.stock)
-    figure = figure_nodes(relief, carved.grid)
+    figure = figure_nodes(relief, carved.grid, setup.stock)
     inside = deviation[figure]
     gouge, x, y = deepest_gouge(relief, carved.grid, carved.heights, deviation)
     within = float((np.abs(inside) <= tolerance).mean())
@@ -168,7 +169,9 @@ def verify(
     seams = seams_of(places, cutters, carved.grid, np.where(figure, deviation, np.nan), tolerance)
     findings += seam_findings(seams, tolerance, LEAST_WITHIN)
     finisher, radius = _finisher(read, cutters), setup.stock.radius
-    findings += _missed(carved.grid, relief, deviation, finisher, tolerance, radius)
+    findings += _missed(
+        carved.grid, relief, np.where(figure, deviation, 0.0), finisher, tolerance, radius
+    )
     return Verification(
         gouge_mm=gouge,
         excess_p99_mm=max(0.0, float(np.percentile(inside, 99))),
@@ -217,7 +220,7 @@ def air_cutting(programs: Sequence[Program], bites: Sequence[Floats]) -> float:
     return idle / total if total else 0.0
 
 
-def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
+def figure_nodes(relief: Relief, grid: Grid, stock: Stock) -> NDArray[np.bool_]:
     """Mark the lattice's nodes that lie on or at the edge of a pixel of figure or marks.
 
     Parameters
@@ -225,6 +228,8 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     relief : Relief
     grid : Grid
         A lattice made from the relief's grid.
+    stock : Stock
+        What lies under its face is cut.
 
     Returns
     -------
@@ -232,7 +237,9 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
-    pixels = np.kron(sunk_pixels(relief.heights, relief.mask), np.ones((refine, refine), bool))
+    under = relief.heights - stock.face(relief.grid.node_axes()[0])
+    cut = np.where(under < (-CHORDS if stock.curve else 0.0), under, 0.0)
+    pixels = np.kron(sunk_pixels(cut, relief.mask), np.ones((refine, refine), bool))
     nodes = np.zeros(grid.node_shape, bool)
     rows, cols = pixels.shape
     for i in (0, 1):
@@ -275,7 +282,7 @@ def _missed(
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
     rows, cols = relief.grid.node_shape
-    excess = np.where(figure_nodes(relief, grid), deviation, 0.0)[top::refine, left::refine]
+    excess = deviation[top::refine, left::refine].astype(float)
     area = missed_patch(relief, excess[:rows, :cols], cutter, tolerance, radius)
     if area <= pi * cutter.radius**2:
         return []

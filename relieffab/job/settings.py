@@ -7,7 +7,6 @@ from typing import Any, Literal
 from relieffab.errors import InputError, suggest
 from relieffab.fittings import Edge, Kind
 from relieffab.job.table import SETTINGS, TABLE, Setting
-from relieffab.round import meant_width
 
 
 @dataclass(frozen=True)
@@ -180,6 +179,8 @@ def job_of(chosen: Mapping[str, Chosen]) -> Job:
     """Build the job from resolved settings."""
     values = {name: choice.value for name, choice in chosen.items()}
     if values["round"] is not None:
+        from relieffab.round import meant_width
+
         width, height = values["size"]
         values["size"] = (meant_width(width, values["round"]), height)
     return Job(**values)

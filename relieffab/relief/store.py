@@ -36,6 +36,10 @@ def to_tiff(relief: Relief) -> bytes:
     return file.getvalue()
 
 
+_BROKEN = (ValueError, OSError, IndexError, zlib.error, RuntimeError)
+"""What tifffile and its codecs raise of a file that is not sound."""
+
+
 def from_tiff(path: Path) -> Relief:
     """Read a relief that `to_tiff` packed.
 
@@ -51,7 +55,7 @@ def from_tiff(path: Path) -> Relief:
         with tifffile.TiffFile(path) as file:
             text = file.pages[0].description
             pages = [page.asarray() for page in file.pages]
-    except (tifffile.TiffFileError, ValueError, OSError, zlib.error, IndexError) as fault:
+    except _BROKEN as fault:
         raise InputError(
             "the relief cannot be read",
             expected="a TIFF or a PNG",

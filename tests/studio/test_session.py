@@ -153,7 +153,7 @@ def test_a_mask_is_one_of_those_sent_and_goes_with_its_picture(session, opened, 
 
 def test_what_the_page_cannot_show_is_refused_before_it_opens():
     left_out = set(TABLE) - set(controls.OFFERED) - {"model", "paper"}
-    assert left_out == {"curved", "text"}
+    assert left_out == {"curved", "text", "depth_map"}
     assert len(set(controls.OFFERED)) == len(controls.OFFERED)
     with pytest.raises(InputError, match="cannot show curved") as refused:
         Session(resolve([("flag", {"curved": "60mm"})]))

@@ -23,13 +23,21 @@ SPREAD = 0.25
 """Of the picture's own spread of colours: a border more varied is no background."""
 COARSE = 400
 """Pixels at most each way for segmentation."""
+ROUNDS = 4
+"""Of fitting the background's colours to the border."""
 LOSSY = ("JPEG", "WEBP")
 """Formats in which no colour stays exactly what it was."""
-HOLE = 0.005
+SPOT = 0.005
 """Of the figure: smaller spots of the background's colour inside it are shadows, or level in a
 normal map."""
 STRIP = 5
 """Half the width, pixels of that copy, of what may be background's tone inside a figure."""
+GAP, LEAST_GAP = 3, 0.001
+"""Half the width of a gap through which background is seen, pixels of that copy, and its area, of
+the picture."""
+STEEP = 0.7
+"""Share of a gap's rim that must step up to the figure: tones that merely pass through the
+background's have no edge."""
 
 
 def opaque(picture: Picture) -> Bools:
@@ -124,7 +132,7 @@ def _but_shadows(mask: Bools) -> Bools:
     """Fill what has the background's colour within the figure, unless it is as large as a hole."""
     parts, _ = ndimage.label(~mask)
     sizes = np.bincount(parts.ravel())
-    shadow = sizes < HOLE * mask.sum()
+    shadow = sizes < SPOT * mask.sum()
     shadow[np.unique(border(parts))] = False
     return mask | np.asarray(shadow[parts] & ~mask, bool)
 
@@ -142,17 +150,14 @@ def _segmented(picture: Picture) -> Bools | None:
     shape = tuple(max(16, round(n / shrink)) for n in picture.shape)
     small = resize(np.nan_to_num(picture.values), (*shape, picture.values.shape[2]), order=1)
     small = ndimage.gaussian_filter(small, (1.5, 1.5, 0))
-    edge = border(small)
-    centre = np.median(edge, axis=0)
-    off = np.linalg.norm(small - centre, axis=2)
-    noise = np.percentile(np.linalg.norm(edge - centre, axis=1), 90)
+    off = np.linalg.norm(small - _even_light(small), axis=2)
+    noise = np.percentile(border(off), 90)
     most = np.percentile(off, 98)
     if noise > SPREAD * most:
         return None
-    seeds = np.zeros(shape, np.int32)
-    seeds[_beyond(off < 1.2 * noise + 0.02 * most)] = 1
-    inner = ndimage.binary_erosion(off > 2.5 * noise + 0.12 * most, iterations=2)
-    seeds[inner] = 2
+    alike, apart = off < 1.2 * noise + 0.02 * most, off > 2.5 * noise + 0.12 * most
+    inner = ndimage.binary_erosion(apart, iterations=2)
+    seeds = np.where(inner, 2, _outside(alike) | _gaps(alike, apart)).astype(np.int32)
     if not inner.any():
         return None
     label = random_walker(
@@ -166,18 +171,51 @@ def _segmented(picture: Picture) -> Bools | None:
     return np.asarray(back, bool)
 
 
-def _beyond(alike: Bools) -> Bools:
-    """Find what is like the border and joined to it, or as large as a hole, but no strip."""
-    alike = alike.copy()
-    alike[[0, -1]] = alike[:, [0, -1]] = True
-    broad = ndimage.binary_opening(np.pad(alike, STRIP, mode="edge"), iterations=STRIP)
-    parts, _ = ndimage.label(broad[STRIP:-STRIP, STRIP:-STRIP])
-    broad_enough = np.bincount(parts.ravel()) > HOLE * parts.size
-    broad_enough[np.unique(border(parts))] = True
-    broad_enough[0] = False
-    found = broad_enough[parts]
-    found[[0, -1]] = found[:, [0, -1]] = True
-    return np.asarray(found, bool)
+def _even_light(picture: Floats) -> Floats:
+    """Continue the border's colours inwards: a quadratic each, for light falls off evenly."""
+    y, x = (np.linspace(-1.0, 1.0, n) for n in picture.shape[:2])
+    x, y = np.meshgrid(x, y)
+    terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+    table, edge = border(terms), border(picture)
+    centre = np.median(edge, axis=0)
+    alike = np.linalg.norm(edge - centre, axis=1)
+    for _ in range(ROUNDS):  # what crosses the border is left out
+        used = alike <= max(3.0 * np.median(alike), 1e-6)
+        found = np.linalg.lstsq(table[used], edge[used], rcond=None)[0]
+        alike = np.linalg.norm(edge - table @ found, axis=1)
+    return np.asarray(terms @ found)
+
+
+def _outside(alike: Bools) -> Bools:
+    """Find what is like the border and joined to it, but by no strip."""
+    alike = _with_border(alike)
+    parts, _ = ndimage.label(_opened(alike, STRIP))
+    return _with_border(np.isin(parts, np.setdiff1d(border(parts), 0)))
+
+
+def _gaps(alike: Bools, apart: Bools) -> Bools:
+    """Find where background is seen through the figure: all round, it steps up to that."""
+    parts, count = ndimage.label(_opened(alike, GAP))
+    sizes = np.bincount(parts.ravel())
+    found = np.zeros(alike.shape, bool)
+    for k in np.setdiff1d(np.arange(1, count + 1), border(parts)):
+        gap = parts == k
+        rim = ndimage.binary_dilation(gap, iterations=2 * GAP)
+        rim &= ~ndimage.binary_dilation(gap, iterations=2 * GAP - 1)
+        if sizes[k] > LEAST_GAP * gap.size and apart[rim].mean() > STEEP:
+            found |= gap
+    return found
+
+
+def _opened(mask: Bools, half: int) -> Bools:
+    padded = np.pad(mask, half, mode="edge")
+    return np.asarray(ndimage.binary_opening(padded, iterations=half)[half:-half, half:-half], bool)
+
+
+def _with_border(mask: Bools) -> Bools:
+    mask = mask.copy()
+    mask[[0, -1]] = mask[:, [0, -1]] = True
+    return mask
 
 
 def _without_specks(mask: Bools) -> Bools:

@@ -35,7 +35,11 @@ _MAGIC = {
 }
 _Read = tuple[NDArray[Any], Floats | None, int | None, tuple[str, ...]]
 """Values, alpha, bits and notes."""
-_BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError, TypeError, zlib.error)
+_BROKEN = (
+    *(OSError, SyntaxError, ValueError, EOFError, IndexError, KeyError, TypeError),
+    *(zlib.error, RuntimeError),
+)
+"""What readers and their codecs raise of a file that is not sound; of imagecodecs RuntimeError."""
 _PLAIN = (1, 8, 32946, 32773)
 """Compressions of TIFF that need no library of their own: none, deflate, packed bits."""
 _CMYK = 5
@@ -165,10 +169,7 @@ def _wide_png(path: Path, *, turned: bool) -> _Read:
     """Read a PNG's colours of 16 bits, of which Pillow keeps 8; its size is checked."""
     import imagecodecs
 
-    try:
-        array = imagecodecs.png_decode(path.read_bytes())
-    except imagecodecs.PngError as fault:
-        raise ValueError(str(fault)) from fault
+    array = imagecodecs.png_decode(path.read_bytes())
     values, alpha, bits, _ = _of_array(array)
     notes = ("what EXIF says of its orientation was not heeded",) if turned else ()
     return values, alpha, bits, notes

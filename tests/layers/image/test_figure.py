@@ -49,6 +49,28 @@ def test_a_photograph_is_segmented(stone, make_picture):
     assert (mask != stone.mask).mean() < 0.01
 
 
+def test_light_that_falls_off_along_the_background_is_not_taken_for_a_figure(stone, make_picture):
+    rng = np.random.default_rng(0)
+    away = np.linspace(0.25, 0.7, stone.grid.cols) ** 1.5
+    shaded = np.where(stone.mask, 0.1 + 0.8 * stone.shading[0], away)
+    shaded = shaded + 0.01 * rng.standard_normal(shaded.shape)
+    mask, source = find_figure(make_picture(shaded), even=False)
+    assert source == SEGMENTED
+    assert (mask != stone.mask).mean() < 0.02
+
+
+def test_the_background_is_seen_through_small_gaps(stone, make_picture):
+    rng = np.random.default_rng(0)
+    row, col = (int(np.median(every)) for every in np.nonzero(stone.mask))
+    gap = np.zeros(stone.grid.shape, bool)
+    gap[row - 11 : row + 11, col - 11 : col + 11] = True
+    shaded = np.where(stone.mask & ~gap, 0.2 + 0.8 * stone.shading[0], 0.6)
+    shaded = shaded + 0.01 * rng.standard_normal(shaded.shape)
+    mask, _ = find_figure(make_picture(shaded), even=False)
+    assert mask[gap].mean() < 0.3
+    assert mask[stone.mask & ~gap].mean() > 0.98
+
+
 def test_what_has_no_background_is_figure_all_over(make_picture):
     noise = np.random.default_rng(0).random((64, 80))
     mask, source = find_figure(make_picture(noise), even=False)
