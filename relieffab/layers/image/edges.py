@@ -22,7 +22,10 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 FOLD = 35.0
-"""Turn of the surface over two pixels that is an edge, degrees."""
+"""Turn of the surface over two pixels that is an edge, degrees; twice that is a strong one."""
+WIDE, SHARP = 3, 0.7
+"""Pixels each way over which a smooth form goes on turning, and the share of that which an edge
+turns within one."""
 SEEN = 0.35
 """n.v below which a surface turns away: it folds there in any case."""
 FADE = 3.0
@@ -56,14 +59,25 @@ def _jumps(layers: Layers) -> Bools:
     return near
 
 
-def _folds(layers: Layers, jumps: Bools) -> Bools:
-    """Pixels on which the surface turns sharply."""
+def _folds(layers: Layers, jumps: Bools) -> tuple[Bools, Floats]:
+    """Pixels on which the surface turns sharply, and how strong an edge that is, 0 to 1.
+
+    It turns at once there, not as the bottom of a groove does.
+    """
     n, facing = layers.normals, layers.normals[..., 2] > SEEN
     whole = ndimage.binary_erosion(layers.mask & facing & ~ndimage.binary_dilation(jumps))
-    turn = np.ones(layers.grid.shape)
-    turn[:, 1:-1] = (n[:, 2:] * n[:, :-2]).sum(axis=2)
-    turn[1:-1] = np.minimum(turn[1:-1], (n[2:] * n[:-2]).sum(axis=2))
-    return np.asarray(whole & (turn < np.cos(np.radians(FOLD))), bool)
+    turn = _turn(n, 1)
+    edge = whole & (turn > FOLD) & (turn > SHARP * _turn(n, WIDE))
+    return np.asarray(edge, bool), np.clip(turn / FOLD - 1.0, 0.1, 1.0)
+
+
+def _turn(normals: Floats, step: int) -> Floats:
+    """Angle between the normals so many pixels before and behind, the larger way, degrees."""
+    cosine = np.ones(normals.shape[:2])
+    cosine[:, step:-step] = (normals[:, 2 * step :] * normals[:, : -2 * step]).sum(axis=2)
+    down = (normals[2 * step :] * normals[: -2 * step]).sum(axis=2)
+    cosine[step:-step] = np.minimum(cosine[step:-step], down)
+    return np.asarray(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
 
 
 def _ridges(field: Floats, sigma: float) -> tuple[Bools, Floats]:
@@ -152,7 +166,7 @@ def draw(layers: Layers, drawing: Drawing, grey: Floats | None = None) -> tuple[
             lines, strength = (jumps, ones) if grey is None else _steps(grey, layers, drawing)
             chains = chains_of(lines, strength, flat, grid)
         elif kind.name == "crease" and grey is None:
-            chains = chains_of(_folds(layers, jumps), ones, flat, grid)
+            chains = chains_of(*_folds(layers, jumps), flat, grid)
         elif kind.name == "suggestive":
             chains = _turning(layers, drawing)
         else:
