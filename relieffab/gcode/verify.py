@@ -147,7 +147,7 @@ def verify(
     carved = simulate(read, cutters, relief.grid, setup.stock, refine=refine, progress=progress)
     coarse = simulate(read, cutters, relief.grid, setup.stock, refine=1)
     deviation = carved.heights - _wanted(carved.grid, relief, setup.stock)
-    figure = figure_nodes(relief, carved.grid)
+    figure = figure_nodes(relief, carved.grid, setup.stock)
     inside = deviation[figure]
     gouge, x, y = deepest_gouge(relief, carved.grid, carved.heights, deviation)
     within = float((np.abs(inside) <= tolerance).mean())
@@ -168,7 +168,8 @@ def verify(
     seams = seams_of(places, cutters, carved.grid, np.where(figure, deviation, np.nan), tolerance)
     findings += seam_findings(seams, tolerance, LEAST_WITHIN)
     finisher, radius = _finisher(read, cutters), setup.stock.radius
-    findings += _missed(carved.grid, relief, deviation, finisher, tolerance, radius)
+    within_figure = np.where(figure, deviation, 0.0)
+    findings += _missed(carved.grid, relief, within_figure, finisher, tolerance, radius)
     return Verification(
         gouge_mm=gouge,
         excess_p99_mm=max(0.0, float(np.percentile(inside, 99))),
@@ -217,7 +218,7 @@ def air_cutting(programs: Sequence[Program], bites: Sequence[Floats]) -> float:
     return idle / total if total else 0.0
 
 
-def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
+def figure_nodes(relief: Relief, grid: Grid, stock: Stock) -> NDArray[np.bool_]:
     """Mark the lattice's nodes that lie on or at the edge of a pixel of figure or marks.
 
     Parameters
@@ -225,6 +226,8 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     relief : Relief
     grid : Grid
         A lattice made from the relief's grid.
+    stock : Stock
+        As it lies on the machine: what is under its face is to be cut.
 
     Returns
     -------
@@ -232,7 +235,9 @@ def figure_nodes(relief: Relief, grid: Grid) -> NDArray[np.bool_]:
     """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
-    pixels = np.kron(sunk_pixels(relief.heights, relief.mask), np.ones((refine, refine), bool))
+    face = stock.face(relief.grid.node_axes()[0])
+    sunk = sunk_pixels(relief.heights - face, relief.mask)
+    pixels = np.kron(sunk, np.ones((refine, refine), bool))
     nodes = np.zeros(grid.node_shape, bool)
     rows, cols = pixels.shape
     for i in (0, 1):
@@ -271,11 +276,14 @@ def _missed(
     tolerance: float,
     radius: float,
 ) -> list[str]:
-    """Report a patch larger than the cutter that it could have cut and did not."""
+    """Report a patch larger than the cutter that it could have cut and did not.
+
+    The deviation is 0 but where something is to be cut.
+    """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
     rows, cols = relief.grid.node_shape
-    excess = np.where(figure_nodes(relief, grid), deviation, 0.0)[top::refine, left::refine]
+    excess = deviation[top::refine, left::refine]
     area = missed_patch(relief, excess[:rows, :cols], cutter, tolerance, radius)
     if area <= pi * cutter.radius**2:
         return []

@@ -66,7 +66,10 @@ def seen_from_above(relief: Relief, stock: Stock) -> Relief:
         low, high = up[row, k], up[row, k + 1]
         np.maximum.at(heights, (row, j), low + np.clip(share, 0, 1) * (high - low))
     face = stock.face(x)
-    heights = np.where(np.isfinite(heights), np.minimum(heights, face), face)
+    # Between samples s apart their chord lies up to s² / 8 R cos(u / R) under an uncut face.
+    sag = (relief.grid.pitch / PER_PIXEL) ** 2 / (4 * (stock.curve + face))
+    cut = np.isfinite(heights) & (heights < face - sag)
+    heights = np.where(cut, heights, face)
     mask = _figure(relief, grid, along, across)
     return Relief(grid, heights, mask, stock.lowest(relief.depth))
 
