@@ -283,7 +283,7 @@ def _missed(
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
     rows, cols = relief.grid.node_shape
-    excess = deviation[top::refine, left::refine]
+    excess = deviation[top::refine, left::refine].astype(float)
     area = missed_patch(relief, excess[:rows, :cols], cutter, tolerance, radius)
     if area <= pi * cutter.radius**2:
         return []
