@@ -30,7 +30,6 @@ Singles = NDArray[np.float32]
 REFINE, LARGE = 4, 4_000_000
 """Lattice nodes a pixel, half of that for reliefs of more pixels than `LARGE`."""
 
-CHORDS = 0.01  # mm that the chords of a curved face may lie under it
 AIR = 1e-3  # mm of material, below which a move cuts nothing
 LEAST_WITHIN = 0.9  # share of the figure that has to be within the tolerance
 
@@ -169,9 +168,8 @@ def verify(
     seams = seams_of(places, cutters, carved.grid, np.where(figure, deviation, np.nan), tolerance)
     findings += seam_findings(seams, tolerance, LEAST_WITHIN)
     finisher, radius = _finisher(read, cutters), setup.stock.radius
-    findings += _missed(
-        carved.grid, relief, np.where(figure, deviation, 0.0), finisher, tolerance, radius
-    )
+    within_figure = np.where(figure, deviation, 0.0)
+    findings += _missed(carved.grid, relief, within_figure, finisher, tolerance, radius)
     return Verification(
         gouge_mm=gouge,
         excess_p99_mm=max(0.0, float(np.percentile(inside, 99))),
@@ -229,7 +227,7 @@ def figure_nodes(relief: Relief, grid: Grid, stock: Stock) -> NDArray[np.bool_]:
     grid : Grid
         A lattice made from the relief's grid.
     stock : Stock
-        What lies under its face is cut.
+        As it lies on the machine: what is under its face is to be cut.
 
     Returns
     -------
@@ -237,9 +235,9 @@ def figure_nodes(relief: Relief, grid: Grid, stock: Stock) -> NDArray[np.bool_]:
     """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
-    under = relief.heights - stock.face(relief.grid.node_axes()[0])
-    cut = np.where(under < (-CHORDS if stock.curve else 0.0), under, 0.0)
-    pixels = np.kron(sunk_pixels(cut, relief.mask), np.ones((refine, refine), bool))
+    face = stock.face(relief.grid.node_axes()[0])
+    sunk = sunk_pixels(relief.heights - face, relief.mask)
+    pixels = np.kron(sunk, np.ones((refine, refine), bool))
     nodes = np.zeros(grid.node_shape, bool)
     rows, cols = pixels.shape
     for i in (0, 1):
@@ -278,7 +276,10 @@ def _missed(
     tolerance: float,
     radius: float,
 ) -> list[str]:
-    """Report a patch larger than the cutter that it could have cut and did not."""
+    """Report a patch larger than the cutter that it could have cut and did not.
+
+    The deviation is 0 but where something is to be cut.
+    """
     refine = round(relief.grid.pitch / grid.pitch)
     top, left = (round(float(k)) for k in grid.to_index(*relief.grid.to_xy(0.0, 0.0)))
     rows, cols = relief.grid.node_shape

@@ -15,9 +15,10 @@ from relieffab.job.stocks import round_of, stock_of
 from relieffab.layers.model import Stroke
 from relieffab.panel.sinking import check_clear
 from relieffab.progress import Progress, silent
-from relieffab.relief.compose import Placed, compose, fitted_round, laid_out, scaled, walls_of
+from relieffab.relief.compose import compose, laid_out, walls_of
 from relieffab.relief.laid import parted, parted_line
 from relieffab.relief.model import Floats, Relief, nodes_of
+from relieffab.relief.placed import Placed, fitted_round, scaled
 from relieffab.relief.store import read_relief, to_tiff
 from relieffab.relief.style.model import Marks
 

@@ -121,7 +121,7 @@ def plan_paths(
                 stock=stock,
                 settings=cut_settings(job),
                 position=position,
-                marks=[laid_marks(one, stock) for one in marks],
+                marks=[laid_marks(one, relief, stock) for one in marks],
                 progress=progress,
             ),
         )

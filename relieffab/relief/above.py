@@ -28,10 +28,28 @@ def bend_of(stock: Stock) -> Bend:
     return Bend(radius, radius * asin(stock.width / 2 / radius))
 
 
-def bent_points(points: Floats, relief: Relief, stock: Stock) -> Floats:
-    """Lay (n, 2) points of the flat panel on the relief of a curved board, as seen from above."""
+def bent_points(points: Floats, relief: Relief, stock: Stock, rise: float = 0.0) -> Floats:
+    """Lay points of the flat panel on the relief of a curved board, as seen from above.
+
+    Parameters
+    ----------
+    points : (n, 2) ndarray
+        mm.
+    relief : Relief
+        On the flat panel.
+    stock : Stock
+        A curved board.
+    rise : float, optional
+        How far above the relief, square to the board's face, mm: a round tip's middle stands
+        its radius above what it cuts, and nearer to the board's middle than that.
+
+    Returns
+    -------
+    (n, 2) ndarray
+        mm.
+    """
     x, y = points.T
-    lifted = np.column_stack([x, y, relief.height_at(x, y)])
+    lifted = np.column_stack([x, y, relief.height_at(x, y) + rise])
     across = bend_of(stock).bent(lifted)[:, 0] + stock.width / 2
     return np.column_stack([across, y])
 
@@ -66,7 +84,10 @@ def seen_from_above(relief: Relief, stock: Stock) -> Relief:
         low, high = up[row, k], up[row, k + 1]
         np.maximum.at(heights, (row, j), low + np.clip(share, 0, 1) * (high - low))
     face = stock.face(x)
-    heights = np.where(np.isfinite(heights), np.minimum(heights, face), face)
+    # Between samples s apart their chord lies up to s² / 8 R cos(u / R) under an uncut face.
+    sag = (relief.grid.pitch / PER_PIXEL) ** 2 / (4 * (stock.curve + face))
+    cut = np.isfinite(heights) & (heights < face - sag)
+    heights = np.where(cut, heights, face)
     mask = _figure(relief, grid, along, across)
     return Relief(grid, heights, mask, stock.lowest(relief.depth))
 

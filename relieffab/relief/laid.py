@@ -105,10 +105,11 @@ def laid_strokes(strokes: Sequence[Stroke], relief: Relief, stock: Stock) -> Seq
     return [replace(stroke, points=corner - stroke.points[:, ::-1]) for stroke in strokes]
 
 
-def laid_marks(marks: Marks, stock: Stock) -> Marks:
+def laid_marks(marks: Marks, relief: Relief, stock: Stock) -> Marks:
     """Lay marks on a stock as `laid` lays the relief that bears them."""
     if stock.curve:
-        bent = tuple(bent_points(line, marks.smooth, stock) for line in marks.lines)
+        rise = marks.cutter.tip_radius
+        bent = tuple(bent_points(line, relief, stock, rise) for line in marks.lines)
         return replace(marks, smooth=laid(marks.smooth, stock), lines=bent)
     if not stock.radius:
         return marks

@@ -54,7 +54,7 @@ def sunk_pixels(heights: Floats, mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     Parameters
     ----------
     heights : (rows + 1, cols + 1) ndarray
-        At nodes, mm, 0 where nothing is cut.
+        Above the stock's face at nodes, mm, 0 where nothing is cut.
     mask : (rows, cols) ndarray of bool
 
     Returns

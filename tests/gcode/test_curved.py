@@ -52,6 +52,7 @@ def test_a_relief_on_a_curved_board_is_carved(made):
     assert verdict.gouge_mm <= 0.001
     assert verdict.within_tolerance > 0.95
     # The face beside the figure falls by 2.8 mm, and nobody touches it.
+    assert 0.5 < verdict.figure.mean() < 0.6
     beside = verdict.deviation[~verdict.figure]
     assert np.abs(beside).max() < 0.06
     assert seen.heights[0, 0] == pytest.approx(-BOARD.sagitta, abs=1e-3)

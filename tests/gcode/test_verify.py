@@ -173,10 +173,11 @@ def test_a_gouge_is_measured_square_to_a_wall():
 
 def test_nodes_of_the_figure():
     relief = Relief(Grid(3, 3, 1.0, (0, 3)), np.zeros((4, 4)), np.eye(3, dtype=bool), 1.0)
-    fine = figure_nodes(relief, Grid(6, 6, 0.5, (0, 3)), STOCK)
+    stock = Stock(3.0, 3.0, 8.0)
+    fine = figure_nodes(relief, Grid(6, 6, 0.5, (0, 3)), stock)
     assert fine.sum() == 3 * 9 - 2
     assert fine[2, 2] and fine[0, 2] and not fine[0, 3]
-    grown = figure_nodes(relief, Grid(8, 8, 0.5, (-0.5, 3.5)), STOCK)
+    grown = figure_nodes(relief, Grid(8, 8, 0.5, (-0.5, 3.5)), stock)
     assert np.array_equal(grown[1:8, 1:8], fine)
 
 

@@ -28,7 +28,7 @@ def judged(rows=30, cols=40, grown=2):
     deviation = np.full(fine.node_shape, 0.02, np.float32)
     deviation[40, 60] = -0.03
     carved = (wanted + deviation).astype(np.float32)
-    figure = figure_nodes(relief, fine, Stock(20, 15, 5))
+    figure = figure_nodes(relief, fine, Stock(40.0, 30.0, 8.0))
     facts = (0.03, 0.02, 0.99, 0.1, 0.04, True, (), fine, figure, deviation, carved)
     return relief, Verification(*facts)
 

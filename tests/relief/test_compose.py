@@ -3,9 +3,10 @@ import pytest
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.relief.compose import Placed, compose, fitted_round, laid_out, walls_of
+from relieffab.relief.compose import compose, laid_out, walls_of
 from relieffab.relief.edge import inward_distance
 from relieffab.relief.model import Relief, inner_nodes, nodes_of
+from relieffab.relief.placed import Placed
 
 RNG = np.random.default_rng(3)
 
@@ -143,19 +144,3 @@ def test_figures_that_overlap_round_the_seam_are_refused():
         compose(parts, (20.0, 9.0), joined=True)
     with pytest.raises(InputError, match="beyond the panel"):
         compose([Placed(relief(), (0, 0), "a")], (7.9, 9.0), joined=True)
-
-
-def test_fitted_round_nodes_are_taken_over_as_they_are():
-    one = relief()
-    parts, scale = fitted_round([Placed(one, (16.3, 0.1), "a")], 20.2)
-    assert 1 - 0.5 / 20.2 < scale < 1
-    assert parts[0].at == pytest.approx((16.3, 0.1), abs=0.25)
-    made = compose(parts, (20.2, 9.0), joined=True)
-    assert made.grid.cols == 41
-    start = round(parts[0].grid.origin[0] / made.grid.pitch)
-    top = round((made.grid.origin[1] - parts[0].grid.origin[1]) / made.grid.pitch)
-    columns = np.arange(start, start + 17) % 41
-    found = made.heights[top : top + 13][:, columns]
-    np.testing.assert_allclose(found, one.heights, atol=1e-9)
-    # Where all fits already nothing changes.
-    assert fitted_round([Placed(one, (16.5, 0.5), "a")], 20.0)[1] == 1.0

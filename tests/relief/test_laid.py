@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,7 @@ from relieffab.layers.model import Stroke
 from relieffab.relief.laid import laid, laid_marks, laid_strokes, parted, parted_line, upright
 from relieffab.relief.model import Relief
 from relieffab.relief.style.model import Marks
-from relieffab.round import Round
+from relieffab.round import Curved, Round
 from relieffab.stock import Stock
 
 STOCK = Stock(10.0, 20.0, 5.0, work_zero=(2.0, 3.0, 0.0), radius=8.0)
@@ -47,10 +49,23 @@ def test_strokes_go_where_their_relief_goes():
 
 def test_marks_go_where_their_relief_goes(relief):
     marks = Marks(profiles.cutter("vee-60"), relief, (np.array([[1.0, 2.0], [3.0, 2.0]]),))
-    found = laid_marks(marks, STOCK)
+    found = laid_marks(marks, relief, STOCK)
     np.testing.assert_array_equal(found.lines[0], [[8.0, 19.0], [8.0, 17.0]])
     np.testing.assert_array_equal(found.smooth.heights, laid(relief, STOCK).heights)
-    assert laid_marks(marks, Stock(10.0, 20.0, 5.0)) is marks
+    assert laid_marks(marks, relief, Stock(10.0, 20.0, 5.0)) is marks
+
+
+def test_a_round_tips_middle_stands_over_that_of_its_mark_on_a_curved_board():
+    board = Curved(40.0, 12.0, 9.0, 40.0)
+    stock = Stock(board.breadth, board.height, board.thickness, curve=board.radius)
+    grid = Grid(12, 40, 1.0, (0.0, 12.0))
+    smooth = Relief(grid, np.zeros(grid.node_shape), np.zeros(grid.shape, bool), 2.0)
+    pecked = replace(smooth, heights=np.full(grid.node_shape, -0.3))
+    marks = Marks(profiles.cutter("ball-2"), smooth, (np.array([[34.0, 6.0]]),))
+    # 14 mm beside the board's middle, 1 mm above the bottom of the mark.
+    across = board.breadth / 2 + (40.0 - 0.3 + 1.0) * np.sin(14.0 / 40.0)
+    found = laid_marks(marks, pecked, stock).lines[0]
+    np.testing.assert_allclose(found, [[across, 6.0]], atol=1e-12)
 
 
 def test_programs_carve_what_the_solid_shows_and_not_its_mirror_image():

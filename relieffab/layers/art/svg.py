@@ -23,6 +23,8 @@ PAPER = 0.93
 LARGEST = 64_000_000
 """Bytes: no drawing is larger."""
 _LENGTH = re.compile(r"^\s*[+]?[\d.]+(?:e[+-]?\d+)?\s*(mm|cm|in|pt|pc|q)\s*$", re.IGNORECASE)
+_NOTHING = re.compile(r"^[-+]?(?:0+\.?0*|\.0+)(?:e[-+]?\d+)?%?$", re.IGNORECASE)
+"""An opacity of 0."""
 
 
 def read_svg(path: str | Path) -> Art:
@@ -108,6 +110,7 @@ def _shapes(root: Any, where: str) -> tuple[list[tuple[Any, Any]], list[str]]:
         AttributeError,
         KeyError,
         ZeroDivisionError,
+        RecursionError,  # what is used uses itself
     ) as fault:
         raise InputError(
             "the SVG has a shape that cannot be read",
@@ -139,9 +142,8 @@ def _told(element: Any, name: str) -> str:
 
 
 def _hidden(shape: Any) -> bool:
-    opacity = _told(shape, "opacity").rstrip("%")
     unseen = _told(shape, "visibility") in ("hidden", "collapse")
-    return unseen or (opacity != "" and float(opacity) == 0.0)
+    return unseen or _NOTHING.match(_told(shape, "opacity")) is not None
 
 
 def _marks(shapes: list[tuple[Any, Any]], where: str) -> tuple[Mark, ...]:

@@ -7,6 +7,7 @@ A clip becomes a group around what it clips; its outlines come first in it, mark
 import copy
 import re
 from collections.abc import Iterable, Iterator
+from itertools import count
 from typing import Any
 
 CLIP, CLIPPED = "data-clip", "data-clipped-"
@@ -48,7 +49,7 @@ def make_plain(root: Any) -> list[str]:
     known = {e.get("id"): e for e in root.iter(etree.Element) if e.get("id")}
     lost = [use for use in root.iter("{*}use") if _target(use, known) is None]
     notes += [f"{told(lost)} shows what is not in this file: left out"] if lost else []
-    numbers = iter(range(1_000_000))
+    numbers = count()
     notes += _clips(root, known, numbers)
     notes += _viewports(root, known, numbers)
     for symbol in list(root.iter(_SVG + "symbol")):  # drawn where it is used, not where it stands

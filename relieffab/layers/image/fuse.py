@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from relieffab.layers.image.integrate import steps_between
+from relieffab.layers.image.normalmap import slopes_in
 from relieffab.layers.occlusion import STEEPEST, beside
 
 Floats = NDArray[np.float64]
@@ -55,7 +56,7 @@ def fuse(
     (rows, cols) ndarray
         mm, the nearest point at 0; 0 outside the figure.
     """
-    slopes = -np.moveaxis(normals[..., :2] / normals[..., 2:], 2, 0)
+    slopes = slopes_in(normals, mask)
     wanted, both, sure = steps_between(slopes, mask, pitch), _both(mask), _both(known)
     steep = np.minimum(np.hypot(*slopes), STEEPEST)
     off = [np.abs(np.diff(depth, axis=k) - want) for k, want in zip((1, 0), wanted, strict=True)]

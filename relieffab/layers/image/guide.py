@@ -11,6 +11,7 @@ from relieffab.layers.image.bands import repair
 from relieffab.layers.image.figure import opaque
 from relieffab.layers.image.fit import Fit
 from relieffab.layers.image.fuse import fuse
+from relieffab.layers.image.normalmap import slopes_in
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.read import read_picture
 from relieffab.layers.image.scale import unit_of
@@ -61,8 +62,7 @@ def guided(
     smooth, bands = repair(np.where(known, picture.grey, 0.0), known)
     values, sure = fit.field(smooth, known), there & fit.mask(known)
     pitch = fit.grid.pitch
-    slopes = -np.moveaxis(normals[..., :2] / normals[..., 2:], 2, 0)
-    unit, alike = unit_of(values, sure, slopes, pitch)
+    unit, alike = unit_of(values, sure, slopes_in(normals, there), pitch)
     if alike < ALIKE:
         raise InputError(
             "the depth map does not show what the normal map shows",

@@ -104,7 +104,8 @@ def find_light(grey: Floats, normals: Floats, mask: Bools) -> Light:
 
 def _of_body(grey: Floats, normals: Floats) -> tuple[Floats, float, float]:
     """Fit one light and an even one to a body's lit pixels: way, ambient, and how well."""
-    lit = grey > DULL
+    bright = grey > DULL * grey.max()
+    lit = bright
     way, strength, ambient = FRONT, 1.0, 0.0
     for _ in range(ROUNDS):
         if lit.sum() < 16:
@@ -118,7 +119,7 @@ def _of_body(grey: Floats, normals: Floats) -> tuple[Floats, float, float]:
         way = np.append(found[:2], max(found[2], LOWEST * strength))
         way = way / np.linalg.norm(way)
         ambient = float(np.clip(found[3], 0.0, 0.5 * grey.max()))
-        lit = (normals @ way > 0.05) & (grey > DULL)
+        lit = (normals @ way > 0.05) & bright
     shown = ambient + strength * np.maximum(normals @ way, 0.0)
     spread = float(((grey - grey.mean()) ** 2).sum())
     left = float(((grey - shown) ** 2).sum())

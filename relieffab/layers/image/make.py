@@ -7,14 +7,11 @@ from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.layers.image import normalmap
-from relieffab.layers.image.bands import repair
 from relieffab.layers.image.figure import Figure, find_figure
 from relieffab.layers.image.fit import Fit, fit_on
-from relieffab.layers.image.guide import guided
 from relieffab.layers.image.ink import InkSight
-from relieffab.layers.image.integrate import integrate
 from relieffab.layers.image.kind import check_shown, kind_of
+from relieffab.layers.image.maps import Laid, form_of_depth, form_of_normals
 from relieffab.layers.image.names import (
     DEPTH,
     DEPTH_FAR,
@@ -25,11 +22,8 @@ from relieffab.layers.image.names import (
 )
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.read import read_picture
-from relieffab.layers.image.rims import rim_length
-from relieffab.layers.image.scale import to_length, white_is_far
 from relieffab.layers.image.shape import brightness, shape_of
 from relieffab.layers.image.sight import Facts, PictureSight
-from relieffab.layers.image.steps import normals_of, slopes_of
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.model import Layers
 from relieffab.layers.shading import default_lights, lambert
@@ -134,24 +128,33 @@ def sight_of_picture(
         raise InputError("the figure is too small to be seen on the panel", where=picture.name)
     facts["mask"] = source
     grey = None
+    laid = Laid(picture, mask, source, fit, there)
     if kind in (DEPTH, DEPTH_FAR):
-        depth, normals = _of_depth(picture, mask, source, showing, fit, there, facts)
+        far = kind == DEPTH_FAR
+        depth, normals = form_of_depth(laid, facts, far=far, deep=showing.deep)
     elif kind == PHOTO:
         grey = fit.field(brightness(picture), mask)
         depth, normals = shape_of(grey, there, grid.pitch, facts)
     else:
-        normals = _normals(picture, mask, kind, fit, there, facts)
-        depth = _of_normals(normals, mask, showing, fit, there, facts)
+        down = kind == NORMAL_DOWN
+        depth, normals = form_of_normals(laid, facts, down=down, depth_map=showing.depth_map)
     return PictureSight(fit, _assemble(grid, depth, normals, there), facts, grey)
 
 
 def _check_depth_map(showing: Showing, kind: str, name: str) -> None:
-    if showing.depth_map and kind not in (NORMAL, NORMAL_DOWN):
+    if not showing.depth_map:
+        return
+    if kind not in (NORMAL, NORMAL_DOWN):
         raise InputError(
             "--depth-map goes with a normal map alone",
             found=f"a picture taken for a {kind}",
             where=name,
             hint="--image normal if it is one; a depth map alone is the model itself",
+        )
+    if showing.deep is not None:
+        raise InputError(
+            "--image-depth says nothing of a depth map beside a normal map: its normals say it",
+            where=showing.depth_map,
         )
 
 
@@ -210,75 +213,3 @@ def _assemble(grid: Grid, depth: Floats, normals: Floats, mask: Bools) -> Layers
         shading=lambert(normals, lights) * mask,
         lines=np.zeros(grid.shape),
     )
-
-
-def _of_depth(
-    picture: Picture,
-    mask: Bools,
-    source: str,
-    showing: Showing,
-    fit: Fit,
-    there: Bools,
-    facts: Facts,
-) -> tuple[Floats, Floats]:
-    """Depth on the grid and its normals; says what was found of levels and their order."""
-    far, by = white_is_far(picture, mask, source)
-    if showing.kind == DEPTH_FAR:
-        far, by = True, "setting"
-    grey = np.where(mask, picture.grey, 0.0)
-    smooth, bands = repair(-grey if far else grey, mask)
-    depth = fit.field(to_length(smooth, mask, fit.scale, showing.deep, picture.name), mask)
-    facts |= {
-        "near": "black" if far else "white",
-        "near_by": by,
-        "depth_mm": float(np.ptp(depth[there])),
-        "banding": bands and {
-            "levels": bands.levels,
-            "step_mm": bands.step / float(np.ptp(smooth[mask])) * float(np.ptp(depth[there])),
-            "flat_share": bands.flat,
-            "flat_share_after": bands.flat_after,
-            "moved_steps": bands.moved,
-        },
-    }  # fmt: skip
-    pitch = fit.grid.pitch
-    return depth, normals_of(slopes_of(depth, there, pitch), there)
-
-
-def _normals(
-    picture: Picture, mask: Bools, kind: str, fit: Fit, there: Bools, facts: Facts
-) -> Floats:
-    """Take unit normals on the grid; says which way their green points."""
-    vectors = normalmap.vectors_of(picture)
-    way, by = normalmap.convention(vectors, mask)
-    if kind == NORMAL_DOWN:
-        way, by = normalmap.DOWN, "setting"
-    facing = mask & (vectors[..., 2] > 0)
-    if facing.sum() < 0.5 * mask.sum():
-        raise InputError(
-            "most of these normals turn away from the viewer",
-            expected="blue over half",
-            found=f"{1 - facing.sum() / mask.sum():.0%} of the figure below",
-            where=picture.name,
-        )
-    facts |= {"green": way, "green_by": by}
-    sampled = np.stack([fit.field(np.nan_to_num(vectors[..., k]), mask) for k in range(3)], -1)
-    return normalmap.unit_normals(sampled, there, way)
-
-
-def _of_normals(
-    normals: Floats, mask: Bools, showing: Showing, fit: Fit, there: Bools, facts: Facts
-) -> Floats:
-    """Find the depth by integration, or with a depth map beside the normals."""
-    pitch = fit.grid.pitch
-    if showing.depth_map:
-        if showing.deep is not None:
-            raise InputError(
-                "--image-depth says nothing of a depth map beside a normal map: its normals say it",
-                where=showing.depth_map,
-            )
-        depth, facts["depth_map"] = guided(showing.depth_map, mask, fit, normals, there)
-    else:
-        depth = integrate(-np.moveaxis(normals[..., :2] / normals[..., 2:], 2, 0), there, pitch)
-        facts["hidden_edges_mm"] = rim_length(normals, there, pitch)
-    facts["depth_mm"] = float(np.ptp(depth[there]))
-    return depth

@@ -137,7 +137,7 @@ def _pillow(path: Path) -> _Read:
             frames = getattr(raw, "n_frames", 1)
             if frames > 1:
                 raise _several(frames, "pictures", str(path))
-            wide = any("16" in str(tile[3]) for tile in raw.tile) and "I" not in raw.mode
+            wide = _is_wide(raw)
             turned = raw.getexif().get(_ORIENTATION, 1) != 1
             if wide and raw.format == "PNG":
                 return _wide_png(path, turned=turned)
@@ -163,6 +163,14 @@ def _pillow(path: Path) -> _Read:
         image = image.convert("RGBA")
     values, alpha = _split(np.asarray(image), 255.0)
     return values, alpha, 1 if mode == "1" else 8, notes
+
+
+def _is_wide(image: Any) -> bool:
+    """Whether a file's colours have 16 bits each, by what Pillow is to read them as."""
+    told = [tile[3][0] if isinstance(tile[3], tuple) else tile[3] for tile in image.tile]
+    # BGR;16 are 16 bits a pixel.
+    wide = any(";16" in str(mode) and not str(mode).startswith("BGR") for mode in told)
+    return wide and "I" not in image.mode
 
 
 def _wide_png(path: Path, *, turned: bool) -> _Read:

@@ -192,6 +192,17 @@ def test_nothing_to_carve_is_an_error(tmp_path, body, said):
         read_svg(svg(tmp_path, body))
 
 
+@pytest.mark.parametrize("word", ["inherit", "calc(1)", "50%", "1e-3"])
+def test_opacities_in_any_words_are_read(tmp_path, word):
+    art = read_svg(svg(tmp_path, f'<rect width="9" height="9" opacity="{word}"/>'))
+    assert len(art.marks) == 1
+
+
+def test_what_shows_itself_is_an_error(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        read_svg(svg(tmp_path, '<g id="g"><use href="#g"/><rect width="9" height="9"/></g>'))
+
+
 def test_nothing_is_fetched_and_nothing_blown_up(tmp_path):
     (tmp_path / "secret").write_text("9")
     outside = '<!DOCTYPE svg [<!ENTITY x SYSTEM "secret">]>'

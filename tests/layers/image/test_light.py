@@ -37,6 +37,14 @@ def test_a_flat_figure_is_asked_at_its_rim():
     assert np.degrees(np.arccos(light.way @ unit)) < 20
 
 
+def test_a_dark_picture_tells_its_light_as_well():
+    unit = np.array([-1.0, 1.0, 1.0]) / np.sqrt(3)
+    grey = lambert(BALL, unit[None])[0] * MASK
+    bright, dark = find_light(grey, BALL, MASK), find_light(0.01 * grey, BALL, MASK)
+    np.testing.assert_allclose(dark.way, bright.way, atol=1e-9)
+    assert dark.fit == pytest.approx(bright.fit)
+
+
 def test_even_brightness_is_light_from_the_front():
     light = find_light(0.6 * MASK, BALL, MASK)
     np.testing.assert_allclose(light.way, [0, 0, 1])

@@ -3,7 +3,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.image.make import Showing, layers_of_picture
 from relieffab.relief.make import make_relief
@@ -81,12 +80,3 @@ def test_a_photograph_has_lines_and_says_how_it_was_read(stone, make_picture):
     assert found.facts["mask"] == "even background"
     assert {stroke.kind for stroke in found.layers.strokes} >= {"outline"}
     assert any("taken for a photo" in note for note in found.notes)
-
-
-def test_what_is_no_map_of_the_kind_is_refused(stone, make_picture):
-    with pytest.raises(InputError, match="three channels"):
-        seen(make_picture(stone.shading[0]), stone, kind="normal")
-    with pytest.raises(InputError, match="turn away"):
-        seen(make_picture(1 - (stone.normals + 1) / 2), stone, kind="normal")
-    with pytest.raises(InputError, match="level"):
-        seen(make_picture(0.5 * stone.mask), stone, kind="depth")

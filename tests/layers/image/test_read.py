@@ -226,3 +226,9 @@ def test_arrays_of_no_picture_are_refused(tmp_path, array):
     np.save(tmp_path / "a.npy", array, allow_pickle=True)
     with pytest.raises(InputError, match="cannot be read"):
         read_picture(tmp_path / "a.npy")
+
+
+def test_only_colours_of_sixteen_bits_are_said_to_be_read_as_eight(tmp_path):
+    """A row of this picture takes 116 bytes, a number that Pillow names beside the colours."""
+    image = Image.new("RGB", (38, 20), "white")
+    assert read_picture(save(image, tmp_path / "a.bmp")).notes == ()
