@@ -52,9 +52,9 @@ AROUND = 4.0
 
 
 def brightness(picture: Picture) -> Floats:
-    """Brightness in linear light, 0 to 1: 8-bit pictures are sRGB, finer ones linear."""
+    """Brightness in linear light, 0 to 1: whole numbers are sRGB, floating point is linear."""
     grey = np.nan_to_num(picture.grey)
-    if picture.bits is not None and picture.bits <= 8:
+    if picture.bits is not None:
         return np.where(grey <= 0.04045, grey / 12.92, ((grey + 0.055) / 1.055) ** 2.4)
     return grey
 

@@ -14,9 +14,10 @@ from relieffab.relief.targets import Carving
 
 def test_brightness_is_linear():
     steps = np.array([[0.0, 0.5, 1.0]])[..., None]
-    eight = brightness(Picture(steps, None, 8, "PNG", "a"))
-    np.testing.assert_allclose(eight, [[0.0, 0.2140, 1.0]], atol=1e-3)
-    np.testing.assert_allclose(brightness(Picture(steps, None, 16, "PNG", "a")), steps[..., 0])
+    for bits in (8, 16):
+        stored = brightness(Picture(steps, None, bits, "PNG", "a"))
+        np.testing.assert_allclose(stored, [[0.0, 0.2140, 1.0]], atol=1e-3)
+    np.testing.assert_allclose(brightness(Picture(steps, None, None, "EXR", "a")), steps[..., 0])
 
 
 @pytest.mark.parametrize("way", [(-1.0, 1.0, 1.0), (0.6, 0.5, 1.2)])
