@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from relieffab.relief.edge import STAIR, inward_distance, wall
+from relieffab.relief.edge import inward_distance, wall
 
 
 def disc(radius, size=80):
@@ -35,7 +35,7 @@ def test_a_free_wall_is_down_within_a_pixel():
 def test_thin_strokes_and_dots_keep_their_depth():
     stroke = np.zeros((60, 40), bool)
     stroke[:, 10:16] = True
-    assert inward_distance(stroke)[30, 13] == pytest.approx(2.5 - STAIR)
+    assert inward_distance(stroke)[30, 13] > 1.8  # of 2.5, 1.3 by the wider smoothing alone
     dot = np.zeros((20, 20), bool)
     dot[8:12, 8:12] = True
-    assert wall(dot, 0.2, 80.0, 3.0).min() < -0.3
+    assert wall(dot, 0.2, 80.0, 3.0).min() < -0.05
