@@ -56,7 +56,7 @@ def test_steps_of_brightness_are_a_photographs_contours(tile):
     assert length(strokes, "contour") > 0.9 * 2 * np.pi * 59 * tile.pitch
 
 
-def test_even_shading_is_no_step_whatever_its_noise(tile):
+def test_even_shading_is_no_step_for_its_little_noise(tile):
     i, j = np.indices(tile.grid.shape)
     off = np.hypot(i - 120, j - 160) / 110
     ball = replace(tile, mask=off < 1)
