@@ -91,8 +91,8 @@ def _too_large(task: Task, room: int) -> Fault:
     return Fault(
         "the job would take more memory than it may\n"
         f"  expected: at most {memory_text(room)}\n"
-        f"  found: about {memory_text(task.memory)}, by its resolution and the model's file\n"
-        "  try: a lower --resolution, or more --memory"
+        f"  found: about {memory_text(task.memory)}, by its stage, resolution and model\n"
+        "  try: more --memory, a lower --resolution or an earlier --stage"
     )
 
 

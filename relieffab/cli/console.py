@@ -81,7 +81,7 @@ def _lines(report: Mapping[str, Any], folder: Path) -> None:
         print(f"relief   {folder / relief['file']}  {size}, {relief['depth_mm']:g} mm deep")
     for style in styles_in(report):
         for place, found in style["measured"].items():
-            _marks(place, found)
+            _marks(f"{place} of {style['relief']}" if "relief" in style else place, found)
     for name in SOLIDS:
         if name in report:
             _solid(name, report[name], folder)

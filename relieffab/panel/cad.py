@@ -83,20 +83,27 @@ def _broken(solid: Any, edge: Edge | None) -> Any:
     Raises
     ------
     InputError
-        If the CAD kernel cannot.
+        If the CAD kernel cannot, or what it gives is no solid.
     """
     if edge is None:
         return solid
     edges = solid.faces(">Z").edges()
     try:
-        return edges.chamfer(edge.width) if edge.kind == "chamfer" else edges.fillet(edge.width)
+        broken = edges.chamfer(edge.width) if edge.kind == "chamfer" else edges.fillet(edge.width)
     except _kernel_errors() as fault:
-        raise InputError(
-            f"the CAD kernel cannot give the frame that {edge.kind}",
-            found=f"{edge.width:g} mm",
-            where="frame_edge",
-            hint="a slightly smaller one",
-        ) from fault
+        raise _refused(edge) from fault
+    if not broken.val().isValid():  # a chamfer round a corner of less than its width may be none
+        raise _refused(edge)
+    return broken
+
+
+def _refused(edge: Edge) -> InputError:
+    return InputError(
+        f"the CAD kernel cannot give the frame that {edge.kind}",
+        found=f"{edge.width:g} mm",
+        where="frame_edge",
+        hint="a slightly smaller one, or other corners",
+    )
 
 
 def _hole(cq: Any, hole: Hole, top: float, bottom: float) -> Any:

@@ -31,3 +31,12 @@ def test_marks_are_told_as_measured(found, line, capsys):
     report = {"settings": {}, "style": {"measured": {"figure": found}}}
     assert console.result(report, Path("out"), as_json=False) == 0
     assert line in capsys.readouterr().out
+
+
+def test_marks_of_a_composed_panel_are_told_relief_by_relief(capsys):
+    styles = [{"relief": name, "measured": {"figure": NOTHING}} for name in ("horse", "cat")]
+    report = {"settings": {}, "reliefs": [{"styles": [style]} for style in styles]}
+    assert console.result(report, Path("out"), as_json=False) == 0
+    out = capsys.readouterr().out
+    assert "none on the figure of horse:" in out
+    assert "none on the figure of cat:" in out

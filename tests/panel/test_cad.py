@@ -118,6 +118,12 @@ def test_triangles_close_and_lie_within_a_hundredth_of_a_millimetre():
     assert mesh.volume == pytest.approx(solid(stock).Volume(), rel=1e-3)
 
 
+def test_a_chamfer_that_crosses_itself_is_refused():
+    stock = Stock(30, 40, 5.0, corner=5.0, frame=Frame(4.5, -2.0, Edge("chamfer", 1.0)))
+    with pytest.raises(InputError, match=r"(?s)cannot give the frame that chamfer.*smaller"):
+        cad.frame_solid(stock)
+
+
 def test_a_fillet_that_the_kernel_cannot_make_is_refused(monkeypatch):
     from OCP.StdFail import StdFail_NotDone
 

@@ -32,6 +32,10 @@ FADE = 3.0
 """Share of the brightness's largest steps, percent, that are lines of full strength."""
 CANNY = (0.1, 0.3)
 """Canny's two thresholds against those steps."""
+AROUND = 3.0
+"""How much wider the Gaussian is that says how steep brightness is around a step."""
+STANDS = 1.5
+"""How much steeper than that a step is; a sharp one, standing alone, is `AROUND` times."""
 
 
 def _sigma(drawing: Drawing, pitch: float) -> float:
@@ -119,7 +123,11 @@ def _turning(layers: Layers, drawing: Drawing) -> Chains:
 
 
 def _steps(grey: Floats, layers: Layers, drawing: Drawing) -> tuple[Bools, Floats]:
-    """Find steps of brightness (Canny 1986), and how strong they are, 0 to 1."""
+    """Find steps of brightness (Canny 1986), and how strong they are, 0 to 1.
+
+    Round forms shade evenly: there Canny's crests are those of noise and of eight bits,
+    so a step must be steeper than the shading around it.
+    """
     from skimage.feature import canny
 
     sigma = 1.5 * _sigma(drawing, layers.pitch)
@@ -132,6 +140,7 @@ def _steps(grey: Floats, layers: Layers, drawing: Drawing) -> tuple[Bools, Float
     # Canny's own gradient is Sobel's, four times that of a Gaussian's derivative.
     low, high = (4.0 * share * full for share in CANNY)
     lines = canny(filled, sigma=sigma, low_threshold=low, high_threshold=high, mask=inner)
+    lines &= steep > STANDS * ndimage.gaussian_gradient_magnitude(filled, AROUND * sigma)
     return lines, np.clip(0.35 + 0.65 * steep / full, 0.0, 1.0)
 
 

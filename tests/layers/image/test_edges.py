@@ -56,6 +56,19 @@ def test_steps_of_brightness_are_a_photographs_contours(tile):
     assert length(strokes, "contour") > 0.9 * 2 * np.pi * 59 * tile.pitch
 
 
+def test_even_shading_is_no_step_for_its_little_noise(tile):
+    i, j = np.indices(tile.grid.shape)
+    off = np.hypot(i - 120, j - 160) / 110
+    ball = replace(tile, mask=off < 1)
+    grey = np.sqrt(np.clip(1 - off**2, 0, None)) + 0.003 * np.random.default_rng(0).normal(
+        size=off.shape
+    )
+    only = Drawing(kinds=("contour",))
+    assert length(draw(ball, only, grey), "contour") < 4 * tile.pitch
+    marked = draw(ball, only, grey - 0.3 * (np.abs(j - 160) < 6) * (np.abs(i - 120) < 60))
+    assert length(marked, "contour") > 0.9 * 2 * 120 * tile.pitch
+
+
 def ring_seen(elevation):
     """A torus from that high, at 320 x 240."""
     mesh = make_mesh(*torus(2.0, 0.9, (240, 120)), usual_up="z")
