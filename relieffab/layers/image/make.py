@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from relieffab.errors import InputError
 from relieffab.grid import Grid
-from relieffab.layers.image.figure import Figure, find_figure
+from relieffab.layers.image.figure import SEGMENTED, Figure, find_figure
 from relieffab.layers.image.fit import Fit, fit_on
 from relieffab.layers.image.ink import InkSight
 from relieffab.layers.image.kind import check_shown, kind_of
@@ -20,6 +20,7 @@ from relieffab.layers.image.names import (
     NORMAL_DOWN,
     PHOTO,
 )
+from relieffab.layers.image.outline import faint_share
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.read import read_picture
 from relieffab.layers.image.shape import brightness, shape_of
@@ -127,6 +128,8 @@ def sight_of_picture(
     if not there.any():
         raise InputError("the figure is too small to be seen on the panel", where=picture.name)
     facts["mask"] = source
+    if source == SEGMENTED:
+        facts["faint_outline"] = faint_share(picture.values, mask)
     grey = None
     laid = Laid(picture, mask, source, fit, there)
     if kind in (DEPTH, DEPTH_FAR):

@@ -18,6 +18,8 @@ Facts = dict[str, Any]
 
 DOUBTFUL = 0.75
 """Likeness of a depth map to its normals under which a person is told."""
+LOST = 0.2
+"""Share of a figure's outline that is faint, from which a person is told."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +78,12 @@ class PictureSight:
             found.append(
                 f"the depth map's slopes are like the normals' by {beside['alike']:.2f} of 1 only: "
                 "it is noisy, or its greys are not even with depth"
+            )
+        faint = self.facts.get("faint_outline", 0.0)
+        if faint > LOST:
+            found.append(
+                f"the figure hardly stands out along {faint:.0%} of its outline, which may be "
+                "wrong there: look at the relief, or say it by --mask"
             )
         if self.facts.get("light_fit", 1.0) < 0.3:
             found.append("its shading does not tell its form well: look at the relief")
