@@ -51,7 +51,8 @@ class Processes:
     def __init__(self, workers: int, memory: int, work: Work = carry_out) -> None:
         self.room = memory
         threads = max(1, cores() // workers)
-        self._idle = [_Worker(work, threads) for _ in range(workers)]
+        self._all = [_Worker(work, threads) for _ in range(workers)]
+        self._idle = list(self._all)
         self._busy: dict[Future[Result], _Worker] = {}
 
     def __enter__(self) -> "Processes":
@@ -63,7 +64,7 @@ class Processes:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        for worker in (*self._busy.values(), *self._idle):
+        for worker in self._all:  # a stop may have fallen between idle and busy
             worker.end()
 
     def free(self, running: Collection[Task]) -> int:
