@@ -33,7 +33,8 @@ def key_of(settings: Mapping[str, Chosen]) -> str:
     """
     job = job_of(settings)
     values = [(name, choice.value) for name, choice in settings.items() if name not in FILES]
-    beside = [_hash(Path(path)) if path else None for path in (job.mask, job.depth_map)]
+    files = (getattr(job, name) for name in FILES if name != "model")
+    beside = [_hash(Path(path)) if path else None for path in files]
     told = repr((__version__, values, _profiles(job), beside))
     return hashlib.sha256(told.encode()).hexdigest()
 

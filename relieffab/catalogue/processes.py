@@ -84,10 +84,9 @@ class Processes:
         Workers without a job go first: they keep what their last one took.
         """
         taken = {future: self._busy[future].memory() for future in running}
-        spare = [worker for worker in self._idle if worker.memory()]
-        if sum(taken.values()) + sum(worker.memory() for worker in spare) <= self.room:
+        if sum(taken.values()) + sum(worker.memory() for worker in self._idle) <= self.room:
             return
-        for worker in spare:
+        for worker in self._idle:
             worker.end()
         if sum(taken.values()) <= self.room:
             return

@@ -157,9 +157,9 @@ def _segmented(picture: Picture) -> Bools | None:
         return None
     alike, apart = off < 1.2 * noise + 0.02 * most, off > 2.5 * noise + 0.12 * most
     inner = ndimage.binary_erosion(apart, iterations=2)
-    seeds = np.where(inner, 2, _outside(alike) | _gaps(alike, apart)).astype(np.int32)
     if not inner.any():
         return None
+    seeds = np.where(inner, 2, _outside(alike) | _gaps(alike, apart)).astype(np.int32)
     label = random_walker(
         small, seeds, beta=300, mode="cg_j", channel_axis=2, tol=1e-4, prob_tol=5e-2
     )
@@ -195,14 +195,14 @@ def _outside(alike: Bools) -> Bools:
 
 def _gaps(alike: Bools, apart: Bools) -> Bools:
     """Find where background is seen through the figure: all round, it steps up to that."""
-    parts, count = ndimage.label(_opened(alike, GAP))
-    sizes = np.bincount(parts.ravel())
+    parts, _ = ndimage.label(_opened(alike, GAP))
+    large = np.flatnonzero(np.bincount(parts.ravel()) > LEAST_GAP * parts.size)
     found = np.zeros(alike.shape, bool)
-    for k in np.setdiff1d(np.arange(1, count + 1), border(parts)):
+    for k in np.setdiff1d(large, [0, *border(parts)]):
         gap = parts == k
-        rim = ndimage.binary_dilation(gap, iterations=2 * GAP)
-        rim &= ~ndimage.binary_dilation(gap, iterations=2 * GAP - 1)
-        if sizes[k] > LEAST_GAP * gap.size and apart[rim].mean() > STEEP:
+        near = ndimage.binary_dilation(gap, iterations=2 * GAP - 1)
+        rim = ndimage.binary_dilation(near) & ~near
+        if apart[rim].mean() > STEEP:
             found |= gap
     return found
 

@@ -105,6 +105,29 @@ def _cut(values: Floats, top: int, left: int, shape: tuple[int, int]) -> Floats:
     return out
 
 
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """What is seen of a picture where a fit lays it.
+
+    Parameters
+    ----------
+    fit : Fit
+        Where the picture lies on the panel.
+    """
+
+    fit: Fit
+
+    @property
+    def grid(self) -> Grid:
+        """The panel's pixels."""
+        return self.fit.grid
+
+    @property
+    def matrix(self) -> list[list[float]]:
+        """From the picture's column and row to the panel, mm."""
+        return self.fit.matrix
+
+
 def fit_on(mask: Bools, grid: Grid, size: tuple[float, float], *, margin: float) -> Fit:
     """Lay a figure on the panel, centred, as large as fits, as `view.place` lays a mesh.
 

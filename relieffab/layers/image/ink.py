@@ -10,7 +10,7 @@ from scipy import ndimage
 from relieffab.errors import InputError
 from relieffab.grid import Grid
 from relieffab.layers.image.figure import border
-from relieffab.layers.image.fit import Fit, fit_on
+from relieffab.layers.image.fit import Fitted, fit_on
 from relieffab.layers.image.picture import Picture
 from relieffab.layers.image.vector import chains_of
 from relieffab.layers.lines.drawing import Drawing
@@ -116,7 +116,7 @@ def level_layers(grid: Grid, mask: Bools, lines: Floats, strokes: tuple[Stroke, 
 
 
 @dataclass(frozen=True, eq=False)
-class InkSight:
+class InkSight(Fitted):
     """What is seen of a drawing on the panel: its ink, before it is spread.
 
     Parameters
@@ -129,7 +129,6 @@ class InkSight:
         As report.json says them.
     """
 
-    fit: Fit
     ink: Floats
     facts: dict[str, Any]
 
@@ -149,16 +148,6 @@ class InkSight:
         ink = ink_of(picture)
         fit = fit_on(ink > 0.5, grid, size, margin=margin)
         return cls(fit, np.clip(fit.field(ink, np.ones(ink.shape, bool)), 0.0, 1.0), facts)
-
-    @property
-    def grid(self) -> Grid:
-        """The panel's pixels."""
-        return self.fit.grid
-
-    @property
-    def matrix(self) -> list[list[float]]:
-        """From the picture's column and row to the panel, mm."""
-        return self.fit.matrix
 
     def _spread(self, drawing: Drawing) -> Floats:
         return spread_ink(self.ink, drawing.spread, self.grid)

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from relieffab.grid import Grid
 from relieffab.layers.image.edges import draw
-from relieffab.layers.image.fit import Fit
+from relieffab.layers.image.fit import Fitted
 from relieffab.layers.lines.drawing import Drawing
 from relieffab.layers.lines.image import line_image, spread_ink
 from relieffab.layers.model import Layers, Stroke
@@ -23,7 +22,7 @@ LOST = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class PictureSight:
+class PictureSight(Fitted):
     """What is seen of a picture on the panel, before it is drawn.
 
     Parameters
@@ -38,20 +37,9 @@ class PictureSight:
         A photograph's brightness.
     """
 
-    fit: Fit
     bare: Layers
     facts: Facts
     grey: Floats | None = None
-
-    @property
-    def grid(self) -> Grid:
-        """The panel's pixels."""
-        return self.fit.grid
-
-    @property
-    def matrix(self) -> list[list[float]]:
-        """From the picture's column and row to the panel, mm."""
-        return self.fit.matrix
 
     @property
     def lines_only(self) -> bool:
